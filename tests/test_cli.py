@@ -5,18 +5,15 @@ from __future__ import annotations
 import importlib
 import json
 import os
-import pty
 import subprocess
 import sys
 import tomllib
-from io import StringIO
 from pathlib import Path
 
 import pytest
 
 from generator.cli import main as cli
 from generator.discovery import modules
-from generator.progress import stages
 from generator.resources import robots
 from generator.version import VERSION
 from tests.commands import PENDULUM, ROOT, Done, command, process, tree
@@ -28,13 +25,6 @@ def pendulum(tmp_path: Path) -> Path:
     path.parent.mkdir()
     path.write_text(PENDULUM)
     return path
-
-
-@pytest.fixture
-def own_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Takes away what the machine's environment says of terminals."""
-    for name in ("TTY_COMPATIBLE", "TTY_INTERACTIVE", "FORCE_COLOR"):
-        monkeypatch.delenv(name, raising=False)
 
 
 def refused(done: Done) -> str:
@@ -176,26 +166,6 @@ def test_letters_that_the_terminal_lacks_are_told_by_number(pendulum: Path) -> N
 # -- list, check, review --------------------------------------------------------------------------------------------
 
 
-def test_stages_are_told_on_a_terminal_and_elsewhere(
-    own_terminal: None, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    with stages() as announced:
-        announced("reading [a/b]")
-        announced("writing [/c]")
-    lines = "reading [a/b]\nwriting [/c]\n"
-    assert capsys.readouterr().err == lines
-    for kind, moves in (("xterm", True), ("dumb", False)):
-        terminal = StringIO()
-        monkeypatch.setenv("TERM", kind)
-        monkeypatch.setattr(terminal, "isatty", lambda: True, raising=False)
-        monkeypatch.setattr(sys, "stderr", terminal)
-        with stages() as announced:
-            announced("reading [a/b]")
-            announced("writing [/c]")
-        assert "writing [/c]" in terminal.getvalue()
-        assert (terminal.getvalue() != lines) == moves
-
-
 def test_list_shows_every_robot_with_its_sets(capsys: pytest.CaptureFixture[str]) -> None:
     head, *lines = command("list", capsys=capsys).out.splitlines()
     assert head.split() == ["robot", "joints", "parameter", "sets", "description"]
@@ -261,31 +231,6 @@ def test_generate_tests_the_code_and_sums_up(
     folder = tmp_path / "out" / "pendulum"
     assert lines[-1].startswith(f"files            {len(tree(folder))} in {folder}/: batch (2), c (4), casadi (")
     assert lines[-1].endswith("manifest.json")
-
-
-def test_stages_are_plain_lines_where_there_is_no_terminal(
-    pendulum: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    done = command("generate", pendulum, "--out", tmp_path / "out", capsys=capsys)
-    assert done.err == f"reading {pendulum.name}\nderiving the model of pendulum\nemitting the files\n"
-
-
-def test_stages_are_shown_on_a_terminal(own_terminal: None, pendulum: Path) -> None:
-    terminal, end = pty.openpty()
-    with os.fdopen(terminal, "rb", buffering=0) as screen:
-        done = subprocess.run(
-            [sys.executable, "-m", "generator", "check", str(pendulum)],
-            cwd=ROOT,
-            env={**os.environ, "TERM": "xterm-256color"},
-            stdout=subprocess.PIPE,
-            stderr=end,
-            check=True,
-        )
-        os.close(end)
-        shown = screen.read(100_000).decode()
-    assert b"is good" in done.stdout
-    assert "reading and deriving" in shown
-    assert "\x1b[" in shown
 
 
 def test_generating_again_removes_what_is_stale_and_keeps_what_is_the_users(

@@ -68,7 +68,7 @@ def _hidden(
     drawn = [_somewhere(name, robot, size, rng) for name in names]
     hidden = tuple(one for one in drawn if one)
     places = {(one.joint, STUDY.laws[one.law].named if one.law in STUDY.laws else one.law) for one in hidden}
-    return hidden if len(places) == len(names) and not takes_more(hidden) else None
+    return hidden if len(places) == len(names) and not shares_coulomb(hidden) else None
 
 
 def _beside(robot: str, hidden: tuple[Hidden, ...], rng: np.random.Generator) -> tuple[Hidden, ...]:
@@ -78,10 +78,12 @@ def _beside(robot: str, hidden: tuple[Hidden, ...], rng: np.random.Generator) ->
     return (Hidden(law, joint),) if there and has_place(law, robot, joint) else ()
 
 
-def takes_more(hidden: Sequence[Hidden]) -> bool:
-    """Whether a law takes the place of Coulomb friction that is hidden too: of less than that, what is left pushes."""
-    hiding = {one.joint for one in hidden if one.law == "coulomb"}
-    return any(one.joint in hiding and LAWS[one.law].replaces_coulomb for one in hidden)
+def shares_coulomb(hidden: Sequence[Hidden]) -> bool:
+    """Whether two of the laws are Coulomb friction of one joint, or take its place: together they may take more of it
+    than there is.
+    """
+    of_coulomb = [one.joint for one in hidden if one.law == "coulomb" or LAWS[one.law].replaces_coulomb]
+    return len({*of_coulomb}) < len(of_coulomb)
 
 
 def has_place(law: str, robot: str, joint: int) -> bool:

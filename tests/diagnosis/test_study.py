@@ -16,7 +16,7 @@ import pytest
 from benchmarks.diagnosis_study.archive import archived, asked, restore, store
 from benchmarks.diagnosis_study.baselines import named_by_baselines
 from benchmarks.diagnosis_study.case import FREE, KNOWN, Case, Hidden, case
-from benchmarks.diagnosis_study.drawing import cases, cells, has_place, takes_more
+from benchmarks.diagnosis_study.drawing import cases, cells, has_place, shares_coulomb
 from benchmarks.diagnosis_study.making import file_of, invisible, made
 from benchmarks.diagnosis_study.pages.intervals import Share
 from benchmarks.diagnosis_study.pages.page import JSON, PAGE, page, tables
@@ -186,16 +186,17 @@ def test_no_law_is_hidden_where_no_effect_may_stand_for_it() -> None:
     assert not found["cells"]
 
 
-def test_no_law_takes_the_place_of_friction_that_is_hidden_too() -> None:
-    """More of it than there is would leave Coulomb friction that pushes."""
+def test_no_two_laws_share_the_coulomb_friction_of_a_joint() -> None:
+    """Where they take more than there is, friction pushes."""
     coulomb, dahl, elsewhere = (
         Hidden("coulomb", 2, 3.0),
         Hidden("presliding_dahl", 2, 3.0),
         Hidden("gradual_rise", 1, 3.0),
     )
-    assert takes_more([coulomb, dahl])
-    assert not takes_more([coulomb, elsewhere])
-    assert not takes_more([dahl, elsewhere, Hidden("viscous", 2, 3.0)])
+    assert shares_coulomb([coulomb, dahl])
+    assert shares_coulomb([dahl, Hidden("gradual_rise", 2, 3.0)])
+    assert not shares_coulomb([coulomb, elsewhere])
+    assert not shares_coulomb([dahl, elsewhere, Hidden("viscous", 2, 3.0)])
     there = {**record("two", [], [coulomb, dahl]), "code": "abc"}
     assert tables([there], [there])["counts"]["misplaced"] == 1
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -15,9 +15,10 @@ from generator.robot.description import Robot
 from generator.robot.readers import read
 from identification import corrections
 from identification.dataset import load
-from identification.diagnosis.candidates import library, torque_drift
+from identification.diagnosis.candidates import library, torque_drift, torque_gain
 from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.columns.hypothesis import DRIVE, EFFECT, Hypothesis
+from identification.diagnosis.columns.warming import following, warm_up_times
 from identification.diagnosis.diagnosis import diagnose
 from identification.diagnosis.mending.addition import Addition, addition
 from identification.diagnosis.mending.refit import refit
@@ -46,15 +47,16 @@ RISE = 30.0
 @dataclass(frozen=True)
 class Drift:
     """Of motor 2: true torque = ``gain`` (1 + ``drift`` w) recorded, w = 1 - exp(-t/``time``); without a time it comes
-    and goes once a minute.
+    and goes once a minute. The drive was cold ``before`` [s] the run.
     """
 
     drift: float
     time: float = 20.0
     gain: float = 1.0
+    before: float = 0.0
 
     def warmth(self, t: Array) -> Array:
-        return np.asarray(1 - np.exp(-t / self.time) if self.time else np.sin(np.pi * t / 60) ** 2)
+        return np.asarray(1 - np.exp(-(t + self.before) / self.time) if self.time else np.sin(np.pi * t / 60) ** 2)
 
 
 def logged(folder: Path, seed: int, drift: Drift, temperatures: Sequence[int] = (), seconds: float = 60.0) -> str:
@@ -157,12 +159,68 @@ def test_how_warm_a_drive_was_when_a_run_began_is_of_that_run_alone(tmp_path: Pa
     per_square = variant.shape["warm_torque"] ** 2 / 0.3
     assert told["torque_drift2"] / per_square == pytest.approx(-0.3, rel=0.05)
     assert told.get("start2", 0.0) == pytest.approx(0.0, abs=0.01)
-    began = [torque_drift.warm_at_start(1, scene) * per_square for scene in found.bank.scenes]
+    began = [torque_drift.warmer_at_start(1, scene) * per_square for scene in found.bank.scenes]
     assert began == pytest.approx(warm, abs=0.15)
     (note,) = remarks.of_warm_starts(found)
     files, parts = zip(*re.findall(r"(\S+) \((\S+) %\)", note), strict=True)
     assert files == ("1.csv", "3.csv")
     assert [float(part) for part in parts] == pytest.approx([-24, -12], abs=3)
+    gains = [{one.joint for one in torque_gain.hypotheses([scene])} for scene in found.bank.scenes]
+    assert gains == [{0, 1}] * 3
+
+
+@dataclass(frozen=True)
+class Found:
+    """A drift of motor 2 that an earlier search has found, and nothing else."""
+
+    coefficients: dict[str, float]
+    warm_up_time: float
+
+    def shape(self, effect: str, joint: int) -> dict[str, float]:
+        return {"warm_up_time": self.warm_up_time} if (effect, joint) == ("torque_drift", 2) else {}
+
+    def torque(self, scene: Scene) -> Array:
+        return np.zeros_like(scene.motion.q)
+
+    load = torque
+
+    def body(self, scene: Scene) -> Array:
+        return np.zeros(10)
+
+
+def test_a_run_tells_how_warm_it_began_by_samples_in_which_its_joints_move(tmp_path: Path) -> None:
+    of = two_links(tmp_path)
+    run = ready(logged(tmp_path, 1, Drift(-0.3, 12.0, 1.1, before=5.0), (), 20.0), of)
+    found = Found({"torque_drift2": -0.3, "start2": 0.1}, 12.0)
+    (known, *_) = torque_drift.hypotheses([scene(run, of)])[-2:]
+    nothing, half, all_out = np.zeros((3, *run.sampled.left_out.shape), dtype=bool)
+    half[:, : half.shape[1] // 2] = True
+    all_out[:] = True
+    made = {}
+    for name, left_out in (("nothing", nothing), ("half", half), ("all", all_out)):
+        tau = np.where(half & (name == "half"), 1e3, run.sampled.tau)
+        sampled = replace(run.sampled, left_out=left_out, tau=tau)
+        one = replace(scene(run, of), sampled=sampled, beside=found)
+        expected = 0.0 if name == "all" else 1 - np.exp(-5 / 12)
+        assert torque_drift.warmer_at_start(1, one) == pytest.approx(expected, abs=0.02)
+        made[name] = known.columns(one, {"warm_up_time": 12.0})[1]
+    for name in ("half", "all"):
+        at = np.s_[:, made["nothing"].shape[1] // 2 :]
+        assert np.linalg.norm((made[name] - made["nothing"])[at]) < 0.12 * np.linalg.norm(made["nothing"][at])
+
+
+def test_time_constants_are_those_of_all_the_time_since_a_cold_start(tmp_path: Path) -> None:
+    """A temperature's rise is that of the recording; no time is so long that a robot file takes it for none."""
+    of = two_links(tmp_path)
+    path = logged(tmp_path, 1, Drift(-0.1), (), 30.0)
+    for since, longest in ((0.0, 150.0), (600.0, 3150.0), (1e9, corrections.NEVER / 2)):
+        (tmp_path / "1.yaml").write_text(f"since_cold: {since} s\n")
+        one = scene(ready(path, of), of)
+        assert one.warmth(1, 20.0)[0] == pytest.approx(1 - np.exp(-(since + one.t[0]) / 20), abs=1e-9)
+        times = warm_up_times([one])
+        assert (times.low, times.high) == pytest.approx((10.0, longest), rel=0.01)
+        assert np.all(np.diff(np.log(times.grid())) < 1)
+        assert following([one], [1 - np.exp(-one.t / 30)]) == pytest.approx(30.0, rel=0.2)
 
 
 def by(kind: str, scenes: Sequence[Scene], joint: int) -> Hypothesis:

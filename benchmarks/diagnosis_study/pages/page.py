@@ -90,8 +90,8 @@ def _misplaced(counts: Mapping[str, int]) -> str:
     if not (count := counts["misplaced"]):
         return ""
     return (
-        f"{count} with a law on a joint where no effect of the library may stand for it, or in the place of Coulomb "
-        "friction that is hidden too, are in no table. "
+        f"{count} with a law on a joint where no effect of the library may stand for it, or two that share the "
+        "Coulomb friction of a joint, are in no table. "
     )
 
 

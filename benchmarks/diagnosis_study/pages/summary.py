@@ -7,7 +7,7 @@ from statistics import median
 from typing import Any
 
 from benchmarks.diagnosis_study.case import FREE, KNOWN, Hidden
-from benchmarks.diagnosis_study.drawing import SIZES, has_place, takes_more
+from benchmarks.diagnosis_study.drawing import SIZES, has_place, shares_coulomb
 from benchmarks.diagnosis_study.pages.intervals import Share, share
 from benchmarks.diagnosis_study.pages.questions import QUESTIONS, TITLES
 from benchmarks.diagnosis_study.runner import MISMATCH
@@ -133,7 +133,7 @@ def detection_limits(results: Sequence[Result]) -> list[Row]:
 
 
 def placed(results: Sequence[Result]) -> list[Result]:
-    """Without those that hide a law where nothing may stand for it, or in the place of what is hidden too."""
+    """Without those that hide a law where nothing may stand for it, or two that share Coulomb friction."""
     return [one for one in results if not _misplaced(one)]
 
 
@@ -157,12 +157,12 @@ def _apart(one: Result) -> bool:
 
 
 def _misplaced(one: Result) -> bool:
-    """Whether a hidden law acts where the library has no effect that it may be called, or takes the place of Coulomb
-    friction that is hidden too, as earlier studies drew some.
+    """Whether a hidden law acts where the library has no effect that it may be called, or two of them share the
+    Coulomb friction of a joint, as earlier studies drew some.
     """
     robot, hidden = one["case"]["robot"], [Hidden(**what) for what in one["case"]["hidden"]]
     nowhere = any(not has_place(what.law, robot, what.joint) for what in hidden if what.law in STUDY.laws)
-    return nowhere or takes_more(hidden)
+    return nowhere or shares_coulomb(hidden)
 
 
 def of(results: Iterable[Result], cell: str, mode: str) -> list[Result]:

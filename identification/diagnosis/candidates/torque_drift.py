@@ -1,13 +1,13 @@
 """Torque constants that change while a motor gets warm: true torque = (1 + start)(1 + drift w) recorded.
 
-The warmth w is that of the robot's file. Where that says nothing, it is 1 - exp(-t/T) from a cold start,
-or what the square of the motor's torque has heated since then, or a temperature's rise where the runs have one.
+The warmth w is that of the robot's file. Where that says nothing, it is 1 - exp(-t/T) from a cold start, or what the
+square of the motor's torque has heated since then, or a temperature's rise where the runs have one.
 ``drift`` adds to ``torque_drift`` of the robot's drives, d: (1 + d w)(1 + drift w/(1 + d w)) is 1 + (d + drift) w. With
 ``start`` the constant differs already where w is 0.
 
 The true torque is linear in both, what is recorded is not: columns are of the torque that is recorded, not of the true
-one, as soon as an earlier search has found a drift, and a large one is exact. From then on each run also tells how warm
-the drive was when it began: all that fades from there belongs to that run alone.
+one, as soon as an earlier search has found a drift, and a large one is exact. From then on each run also tells how much
+warmer the drive was when it began: all that fades from there belongs to that run alone.
 """
 
 from __future__ import annotations
@@ -78,7 +78,7 @@ def _temperature(k: int, scenes: Sequence[Scene]) -> tuple[ShapeRange, ...]:
     whole = max((float(rise.max()) for rise in rises), default=0.0)
     if len(rises) < len(scenes) or whole <= _RISE:
         return ()
-    nearest = following(k, scenes, [rise / whole for rise in rises])
+    nearest = following(scenes, [rise / whole for rise in rises])
     return _exactly("warm_rise", "K", whole), _exactly("warm_up_time", "s", nearest)
 
 
@@ -126,35 +126,54 @@ def _of_model(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:
 def _scaled(k: int, scene: Scene, shape: Mapping[str, float], torque: Array) -> Array:
     own, w = supplied(scene.robot, k, torque), _warmth(k, scene, shape)
     w = w / (1 + dict(drifting(scene.robot)).get(k, 0.0) * w)
-    joint = scene.robot.moving[k]
-    if not scene.found(drift_name(joint)) or not np.all(np.isfinite(w)):
+    drift, gain = _found(k, scene)
+    if not drift or not np.all(np.isfinite(w)):
         return -np.stack([own * w, own])
-    w = w + warm_at_start(k, scene) * _fading(scene, shape)
+    w = w + warmer_at_start(k, scene) * _fading(scene, shape)
     recorded = own * _part(k, scene, w)
-    return -np.stack([(1 + scene.found(start_name(joint))) * recorded * w, recorded])
+    return -np.stack([gain * recorded * w, recorded])
 
 
 def _part(k: int, scene: Scene, w: Array) -> Array:
-    """What part of its torque the log holds of a motor: a polynomial of the warmth, which follows none of the noise."""
-    powers = w ** np.arange(_DEGREE + 1)[:, None]
+    """What part of its torque the log holds of a motor: a polynomial of the warmth, which follows none of the noise; by
+    what was found before where no sample tells.
+    """
     true, logged, told = _torques(k, scene)
+    if not told.any():
+        drift, gain = _found(k, scene)
+        return 1 / (gain * (1 + drift * w))
+    # Beyond the warmths that it is fitted to a polynomial goes anywhere.
+    powers = np.clip(w, w[told].min(), w[told].max()) ** np.arange(_DEGREE + 1)[:, None]
     part: Array = np.linalg.lstsq((powers * true)[:, told].T, logged[told], rcond=None)[0] @ powers
     return part
 
 
-def warm_at_start(k: int, scene: Scene) -> float:
-    """How warm the drive was already when the recording began, by what was found before: what it had done until then
-    nobody knows, and it differs from run to run.
+def warmer_at_start(k: int, scene: Scene) -> float:
+    """By what warmth the drive was warmer when the recording began than is known, by what was found before: what it had
+    done until then differs from run to run. No less than nothing, which is also where no sample tells.
     """
-    joint = scene.robot.moving[k]
-    shape = scene.shape_found(EFFECT, joint.number)
-    drift, gain = scene.found(drift_name(joint)), 1 + scene.found(start_name(joint))
+    shape = scene.shape_found(EFFECT, scene.robot.moving[k].number)
     fading = _fading(scene, shape)
+    if not fading.any():
+        return 0.0
+    drift, gain = _found(k, scene)
     true, logged, told = _torques(k, scene)
-    per_warmth = gain * drift * fading * logged
-    missing = true - gain * (1 + drift * _warmth(k, scene, shape)) * logged
-    size = float(per_warmth[told] @ per_warmth[told])
-    return max(float(per_warmth[told] @ missing[told]) / size, 0.0) if size > 0 else 0.0
+    per_warmth = (gain * drift * fading * logged)[told]
+    missing = (true - gain * (1 + drift * _warmth(k, scene, shape)) * logged)[told]
+    size = float(per_warmth @ per_warmth)
+    return max(float(per_warmth @ missing) / size, 0.0) if size > 0 else 0.0
+
+
+def changed_at_start(k: int, scene: Scene) -> float:
+    """By what part of it, as ``warmer_at_start``, the constant of motor ``k`` has changed where the run begins."""
+    shape = scene.shape_found(EFFECT, scene.robot.moving[k].number)
+    return _found(k, scene)[0] * warmer_at_start(k, scene) * float(_fading(scene, shape)[0])
+
+
+def _found(k: int, scene: Scene) -> tuple[float, float]:
+    """The drift of a motor's torque constant, and 1 + its start, that an earlier search has found."""
+    joint = scene.robot.moving[k]
+    return scene.found(drift_name(joint)), 1 + scene.found(start_name(joint))
 
 
 def _fading(scene: Scene, shape: Mapping[str, float]) -> Array:
@@ -166,12 +185,11 @@ def _fading(scene: Scene, shape: Mapping[str, float]) -> Array:
 def _torques(k: int, scene: Scene) -> tuple[Array, Array, NDArray[np.bool_]]:
     """What a motor supplies to its joint by the model and by the log (N each), and the samples (N) that tell of it.
 
-    Where a joint stands that the motor drives the model knows no friction: those tell nothing, if others do.
+    Where a joint stands of whose torque that is made, the model knows no friction.
     """
-    driven = motor_torques(scene.robot, np.eye(len(scene.tau)))[k] != 0
-    moves = ~scene.sampled.left_out[driven].any(axis=0)
+    made_of = motor_torques(scene.robot, np.eye(len(scene.tau)))[k] != 0
     true, logged = (supplied(scene.robot, k, torque)[k] for torque in (scene.torque, scene.tau))
-    return true, logged, moves if moves.any() else np.ones_like(moves)
+    return true, logged, ~scene.sampled.left_out[made_of].any(axis=0)
 
 
 def _warmth(k: int, scene: Scene, shape: Mapping[str, float]) -> Array:

@@ -85,5 +85,5 @@ def _by_time(joint: int, scenes: Sequence[Scene]) -> Addition:
     k = scenes[0].robot.numbers.index(joint)
     told = [scene for scene in scenes if scene.warmth_is_stated(k)]
     return Addition(
-        SIGNAL, "warm_up_time", (joint,), {"warm_up_time": following(k, told, [scene.warmth(k) for scene in told])}
+        SIGNAL, "warm_up_time", (joint,), {"warm_up_time": following(told, [scene.warmth(k) for scene in told])}
     )

@@ -15,7 +15,7 @@ from identification.diagnosis.verdict.own_range import own_range
 #: that is more.
 _GONE, _STAYS, _MORE = 0.2, 0.15, 3.0
 #: What one run may have and the others not.
-_OTHER = "another load, zero, unit or sign, or warmer drives (since_cold of its sidecar)"
+_OTHER = "another load, zero, unit or sign, or drives less or more warm (since_cold of a sidecar)"
 
 
 def notes(found: Search, lacking: Collection[int]) -> list[str]:

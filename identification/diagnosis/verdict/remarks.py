@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator, Sequence, Set
 
 from generator.words import listed, numbered
 from identification.diagnosis.candidates.torque_drift import EFFECT as DRIFT
-from identification.diagnosis.candidates.torque_drift import drift_name, warm_at_start
+from identification.diagnosis.candidates.torque_drift import changed_at_start
 from identification.diagnosis.columns.hypothesis import ELASTIC, Key
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.stated_elasticity import BOUNCING, Stated, stated
@@ -148,14 +148,19 @@ def of_warmth(found: Search) -> Iterator[str]:
 def of_warm_starts(found: Search) -> Iterator[str]:
     """Of runs that began with a warm drive, by the drift of its torque constant that was found."""
     drifts = {one.evidence.variant.key for one in found.choices}
+    scenes = found.bank.scenes
+    files = told_files([scene.sampled.run for scene in scenes])
     for k, joint in enumerate(found.bank.robot.moving):
-        scenes = found.bank.scenes if (DRIFT, joint.number) in drifts else ()
-        parts = {one.sampled.run.file: one.found(drift_name(joint)) * warm_at_start(k, one) for one in scenes}
-        began = [f"{file} ({100 * part:+.2g} %)" for file, part in parts.items() if abs(part) > _WARM]
+        if (DRIFT, joint.number) not in drifts:
+            continue
+        parts = [changed_at_start(k, scene) for scene in scenes]
+        pairs = zip(files, parts, strict=True)
+        began = [f"{file} ({100 * part:+.2g} %)" for file, part in pairs if abs(part) > _WARM]
         if began:
             yield (
-                f"the torque constant of joint {joint.number} had drifted already when {listed(began)} began, which "
-                "the search takes into account; for the new robot file since_cold of their sidecars can tell it"
+                f"the torque constant of joint {joint.number} had drifted already when {listed(began)} began, beyond "
+                "what since_cold of its sidecar tells: the search takes that into account, the new set is fitted "
+                "without it"
             )
 
 
