@@ -44,8 +44,8 @@ class Run:
     the drives (n x N) is there where the robot file says it. ``others`` are the file's further columns of known meaning
     by name (N each). ``began`` are the time ``t`` and the temperatures with which the recording began that the run is a
     part of, the run's own where they are not given, and ``since_cold`` is how long before that the drives were set in
-    motion, cold [s]. ``notes`` tell every repair. ``coarse`` is how the efforts of cold
-    drives were rounded in the record, None where they take no steps.
+    motion, cold [s]. ``notes`` tell every repair. ``coarse`` is how the efforts of cold drives were rounded in the
+    record, None where they take no steps.
     """
 
     name: str

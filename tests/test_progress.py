@@ -12,14 +12,7 @@ from pathlib import Path
 import pytest
 
 from generator.progress import bar, counter, stages
-from tests.commands import PENDULUM, ROOT, command
-
-
-@pytest.fixture
-def pendulum(tmp_path: Path) -> Path:
-    path = tmp_path / "pendulum.yaml"
-    path.write_text(PENDULUM)
-    return path
+from tests.commands import ROOT, command
 
 
 @pytest.fixture
