@@ -45,9 +45,14 @@ class Scalar:
     def __mul__(self, other: Scalar) -> Scalar:
         if not self.value or not other.value:
             return self if not self.value else other
+        # Most factors are one, and a product of fractions looks for what cancels.
+        if self.symbol == 1 or other.symbol == 1:
+            return other if self.symbol == 1 else self
         return Scalar(self.symbol * other.symbol, self.value * other.value)
 
     def __truediv__(self, other: Scalar) -> Scalar:
+        if other.symbol == 1:
+            return self
         return Scalar(self.symbol / other.symbol, self.value / other.value)
 
     def __neg__(self) -> Scalar:
@@ -78,6 +83,8 @@ class Numbers:
 
     def integer(self, value: int) -> Scalar:
         """The scalar of an integer."""
+        if value in (0, 1):
+            return self.one if value else self.zero
         return Scalar(self._field(value), Fraction(value))
 
     def length(self, expression: sympy.Expr) -> Scalar:
