@@ -34,7 +34,7 @@ from identification.diagnosis.search.loop import search
 from identification.diagnosis.verdict import remarks
 from identification.diagnosis.verdict.confirmation import confirmed
 from identification.diagnosis.verdict.trial import along
-from identification.drive_train import coupling
+from identification.drive_train import coupling, supplied
 from identification.observation import Regressors
 from identification.recipes import Recipe
 from tests.recorded import TRUTH, TWO_LINKS, Recorded, recorded, two_links
@@ -207,6 +207,23 @@ def test_a_run_tells_how_warm_it_began_by_samples_in_which_its_joints_move(tmp_p
     for name in ("half", "all"):
         at = np.s_[:, made["nothing"].shape[1] // 2 :]
         assert np.linalg.norm((made[name] - made["nothing"])[at]) < 0.12 * np.linalg.norm(made["nothing"][at])
+
+
+def test_torques_of_a_motor_are_computed_once_for_each_shape(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of the column, of the model and of the log."""
+    of = two_links(tmp_path)
+    found = Found({"torque_drift2": -0.3, "start2": 0.1}, 12.0)
+    one = replace(scene(ready(logged(tmp_path, 1, Drift(-0.3, 12.0), (), 20.0), of), of), beside=found)
+    (drift, _) = torque_drift.hypotheses([one])[-2:]
+    made: list[int] = []
+
+    def counted(robot: Robot, motor: int, tau: Array) -> Array:
+        made.append(motor)
+        return supplied(robot, motor, tau)
+
+    monkeypatch.setattr(torque_drift, "supplied", counted)
+    drift.columns(one, {"warm_up_time": 12.0})
+    assert made == [1, 1, 1]
 
 
 def test_time_constants_are_those_of_all_the_time_since_a_cold_start(tmp_path: Path) -> None:

@@ -36,6 +36,9 @@ _DEGREE = 3
 #: Rise of a temperature [K] below which nothing has got warm.
 _RISE = 2.0
 
+#: What a motor supplies to its joint by the model and by the log (N each), and the samples (N) that tell of it.
+_Torques = tuple[Array, Array, NDArray[np.bool_]]
+
 
 def drift_name(joint: Joint) -> str:
     """How the coefficient of a motor's drift is called."""
@@ -129,16 +132,17 @@ def _scaled(k: int, scene: Scene, shape: Mapping[str, float], torque: Array) -> 
     drift, gain = _found(k, scene)
     if not drift or not np.all(np.isfinite(w)):
         return -np.stack([own * w, own])
-    w = w + warmer_at_start(k, scene) * _fading(scene, shape)
-    recorded = own * _part(k, scene, w)
+    torques = _torques(k, scene)
+    w = w + _warmer(k, scene, torques) * _fading(scene, shape)
+    recorded = own * _part(k, scene, w, torques)
     return -np.stack([gain * recorded * w, recorded])
 
 
-def _part(k: int, scene: Scene, w: Array) -> Array:
+def _part(k: int, scene: Scene, w: Array, torques: _Torques) -> Array:
     """What part of its torque the log holds of a motor: a polynomial of the warmth, which follows none of the noise; by
     what was found before where no sample tells.
     """
-    true, logged, told = _torques(k, scene)
+    true, logged, told = torques
     if not told.any():
         drift, gain = _found(k, scene)
         return 1 / (gain * (1 + drift * w))
@@ -152,12 +156,16 @@ def warmer_at_start(k: int, scene: Scene) -> float:
     """By what warmth the drive was warmer when the recording began than is known, by what was found before: what it had
     done until then differs from run to run. No less than nothing, which is also where no sample tells.
     """
+    return _warmer(k, scene, _torques(k, scene))
+
+
+def _warmer(k: int, scene: Scene, torques: _Torques) -> float:
     shape = scene.shape_found(EFFECT, scene.robot.moving[k].number)
     fading = _fading(scene, shape)
     if not fading.any():
         return 0.0
     drift, gain = _found(k, scene)
-    true, logged, told = _torques(k, scene)
+    true, logged, told = torques
     per_warmth = (gain * drift * fading * logged)[told]
     missing = (true - gain * (1 + drift * _warmth(k, scene, shape)) * logged)[told]
     size = float(per_warmth @ per_warmth)
@@ -182,7 +190,7 @@ def _fading(scene: Scene, shape: Mapping[str, float]) -> Array:
     return np.zeros_like(scene.t) if known else np.exp(-scene.t / shape["warm_up_time"])
 
 
-def _torques(k: int, scene: Scene) -> tuple[Array, Array, NDArray[np.bool_]]:
+def _torques(k: int, scene: Scene) -> _Torques:
     """What a motor supplies to its joint by the model and by the log (N each), and the samples (N) that tell of it.
 
     Where a joint stands of whose torque that is made, the model knows no friction.

@@ -28,22 +28,23 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     """
     if not scenes:
         return []
-    moving = scenes[0].robot.moving
-    drifts = {k for k, joint in enumerate(moving) if any(scene.found(drift_name(joint)) for scene in scenes)}
-    own = [_hypothesis(scenes, (joint,), k) for k, joint in enumerate(moving) if k not in drifts]
-    return [*([_hypothesis(scenes, moving, None)] if len(moving) > 1 else []), *own]
+    # What was found, and whether it is settled, all scenes share.
+    scene = scenes[0]
+    moving = scene.robot.moving
+    own = [_hypothesis(scene, (joint,), k) for k, joint in enumerate(moving) if not scene.found(drift_name(joint))]
+    return [*([_hypothesis(scene, moving, None)] if len(moving) > 1 else []), *own]
 
 
-def _hypothesis(scenes: Sequence[Scene], joints: Sequence[Joint], k: int | None) -> Hypothesis:
+def _hypothesis(scene: Scene, joints: Sequence[Joint], k: int | None) -> Hypothesis:
     """Of motor k, or of all."""
-    stated = [float(one) for one in scenes[0].robot.signals.torque_gain] or [1.0] * len(scenes[0].robot.moving)
+    stated = [float(one) for one in scene.robot.signals.torque_gain] or [1.0] * len(scene.robot.moving)
     mine = stated if k is None else [stated[k]]
     joint = None if k is None else joints[0]
     return Hypothesis(
         "torque_gain",
         "error of " + ("all torques' gains" if k is None else "the torque's gain") + BEYOND * any(x != 1 for x in mine),
         0 if joint is None else joint.number,
-        (_coefficient(_name(joint), mine, scenes),),
+        (_coefficient(_name(joint), mine, scene),),
         partial(_columns, k),
         kind=SIGNAL,
         joints=tuple(one.number for one in joints),
@@ -65,10 +66,10 @@ def _name(joint: Joint | None) -> str:
     return "torque_gain_error" if joint is None else f"torque_gain_error{joint.number}"
 
 
-def _coefficient(name: str, stated: Sequence[float], scenes: Sequence[Scene]) -> Coefficient:
+def _coefficient(name: str, stated: Sequence[float], scene: Scene) -> Coefficient:
     """Beside ``stated`` gains."""
     least, largest = min(max(stated) * _LEAST - 1, 0.0), max(min(stated) * _LARGEST - 1, 0.0)
-    if not any(scene.settled or scene.found(name) for scene in scenes):
+    if not (scene.settled or scene.found(name)):
         # Beside known values a model that was fitted to the recorded torque is 1 + e times the true one.
         least /= 1 + least
     return Coefficient(name, "1", least, largest, believed=_BELIEVED)

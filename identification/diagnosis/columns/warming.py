@@ -13,8 +13,8 @@ from identification.diagnosis.columns.hypothesis import ShapeRange
 from identification.diagnosis.runs.scene import Scene
 
 #: Time constants that are tried, in parts of the longest recording, and of what is the longest since a cold start; none
-#: that no motor's winding has [s].
-_SHORTEST, _LONGEST, _QUICK = 0.2, 5.0, 10.0
+#: that no motor's winding has [s]; how many times the shortest the longest is at least.
+_SHORTEST, _LONGEST, _QUICK, _WIDE = 0.2, 5.0, 10.0, 2.0
 #: How many are tried at least, how far apart at most by their logarithm, and what is too long for the robot file [s].
 _COUNT, _APART, _NEVER = 5, 0.85, NEVER / 2
 #: How many are held against another warmth.
@@ -26,10 +26,10 @@ def warm_up_times(scenes: Sequence[Scene]) -> ShapeRange:
     runs = [scene.sampled.run for scene in scenes]
     recorded = max(float(run.elapsed[-1]) for run in runs)
     warming = max(float(run.warming[-1]) for run in runs)
-    shortest = max(_SHORTEST * recorded, _QUICK)
-    longest = min(max(_LONGEST * warming, 2 * shortest), _NEVER)
+    shortest = min(max(_SHORTEST * recorded, _QUICK), _NEVER / _WIDE)
+    longest = min(max(_LONGEST * warming, _WIDE * shortest), _NEVER)
     count = max(_COUNT, ceil(log(longest / shortest) / _APART) + 1)
-    return ShapeRange("warm_up_time", "s", min(shortest, longest / 2), longest, count)
+    return ShapeRange("warm_up_time", "s", shortest, longest, count)
 
 
 def following(scenes: Sequence[Scene], warmths: Sequence[Array]) -> float:
