@@ -203,6 +203,7 @@ def test_a_run_tells_how_warm_it_began_by_samples_in_which_its_joints_move(tmp_p
         one = replace(scene(run, of), sampled=sampled, beside=found)
         expected = 0.0 if name == "all" else 1 - np.exp(-5 / 12)
         assert torque_drift.warmer_at_start(1, one) == pytest.approx(expected, abs=0.02)
+        assert torque_drift.since_cold(1, one) == pytest.approx(0.0 if name == "all" else 5.0, abs=0.4)
         made[name] = known.columns(one, {"warm_up_time": 12.0})[1]
     for name in ("half", "all"):
         at = np.s_[:, made["nothing"].shape[1] // 2 :]

@@ -178,6 +178,18 @@ def changed_at_start(k: int, scene: Scene) -> float:
     return _found(k, scene)[0] * warmer_at_start(k, scene) * float(_fading(scene, shape)[0])
 
 
+def since_cold(k: int, scene: Scene) -> float | None:
+    """How long [s] before the run motor ``k`` started cold, as ``warmer_at_start`` has it; None where its warmth is not
+    one of time alone, or no time makes as much.
+    """
+    shape = scene.shape_found(EFFECT, scene.robot.moving[k].number)
+    if shape.keys() != {"warm_up_time"}:
+        return None
+    began = float(_warmth(k, scene, shape)[0]) + warmer_at_start(k, scene) * float(_fading(scene, shape)[0])
+    # The first sample of a scene is not that of the run.
+    return float(-shape["warm_up_time"] * np.log1p(-began) - scene.t[0]) if began < 1 else None
+
+
 def _found(k: int, scene: Scene) -> tuple[float, float]:
     """The drift of a motor's torque constant, and 1 + its start, that an earlier search has found."""
     joint = scene.robot.moving[k]

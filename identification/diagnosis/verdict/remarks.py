@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator, Sequence, Set
 
 from generator.words import listed, numbered
 from identification.diagnosis.candidates.torque_drift import EFFECT as DRIFT
-from identification.diagnosis.candidates.torque_drift import changed_at_start
+from identification.diagnosis.candidates.torque_drift import changed_at_start, since_cold
 from identification.diagnosis.columns.hypothesis import ELASTIC, Key
 from identification.diagnosis.runs.prepared import Prepared
 from identification.diagnosis.runs.stated_elasticity import BOUNCING, Stated, stated
@@ -154,14 +154,21 @@ def of_warm_starts(found: Search) -> Iterator[str]:
         if (DRIFT, joint.number) not in drifts:
             continue
         parts = [changed_at_start(k, scene) for scene in scenes]
-        pairs = zip(files, parts, strict=True)
-        began = [f"{file} ({100 * part:+.2g} %)" for file, part in pairs if abs(part) > _WARM]
+        began = [
+            f"{file} ({100 * part:+.2g} %{_as_after(since_cold(k, scene))})"
+            for file, part, scene in zip(files, parts, scenes, strict=True)
+            if abs(part) > _WARM
+        ]
         if began:
             yield (
                 f"the torque constant of joint {joint.number} had drifted already when {listed(began)} began, beyond "
                 "what since_cold of its sidecar tells: the search takes that into account, the new set is fitted "
                 "without it"
             )
+
+
+def _as_after(time: float | None) -> str:
+    return "" if time is None else f", as {time:.0f} s after a cold start"
 
 
 def of_findings(found: Sequence[Finding], gone: Sequence[Choice]) -> Iterator[str]:
