@@ -17,6 +17,7 @@ from identification.diagnosis.verdict.crossed import Crossed, crossed
 from identification.diagnosis.verdict.drifting import drifting
 from identification.diagnosis.verdict.gap_crossings import BOUNCED
 from identification.diagnosis.verdict.lack_of_fit import Lack
+from identification.diagnosis.verdict.other_joints import following_others
 from identification.diagnosis.verdict.overlooked import untested, untold
 from identification.diagnosis.verdict.ripples import Ripple, ripples
 from identification.diagnosis.verdict.tones import Tone, tones
@@ -106,6 +107,8 @@ def unexplained(
         reason = VALUES
     passing = (one.told(found.bank.robot) for one in found.passing)
     told = (*passing, *overlooked.values(), *crossing.values(), *rippling.values(), *contradicting.values())
+    if large:
+        told += tuple(following_others(found, last, large))
     return Unexplained(tuple(lacks), where, reason, (*bounces, *loose), told)
 
 

@@ -87,16 +87,10 @@ def views(
 ) -> tuple[View, ...]:
     """All views of coordinate k's residuals, one (N rows) and a colour of noise a run; the strongest variable first."""
     kept = [run.kept[k] for run in runs]
-    e = np.concatenate([each[rows] for each, rows in zip(residuals, kept, strict=True)])
-    if len(e) < FEW_ROWS * BINS:
+    seen = _seen(runs, scenes, residuals, k, noise)
+    if len(seen.e) < FEW_ROWS * BINS:
         return ()
     every = [variables(run, scene, k) for run, scene in zip(runs, scenes, strict=True)]
-    seen = _Rows(
-        scenes[0].robot.moving[k].number,
-        e,
-        joined(runs, [run.decimated(scene.motion.qd) for run, scene in zip(runs, scenes, strict=True)], k),
-        _of_means(noise, [int(rows.sum()) for rows in kept]),
-    )
     usual = rms(joined(runs, [run.tau for run in runs], k))
     found: list[View] = []
     for name, (unit, _) in every[0].items():
@@ -107,6 +101,34 @@ def views(
         sides = (-1, 1) if name in ("q by direction", "load") else (0,)
         found += _view(seen, name, unit, x, sides)
     return tuple(sorted(found, key=lambda one: (-one.share, one.variable, one.direction)))
+
+
+def shares_of_others(
+    runs: Sequence[Prepared], scenes: Sequence[Scene], residuals: Sequence[Array], k: int, noise: Sequence[Colour]
+) -> dict[str, float]:
+    """The part of the variance of coordinate k's residuals, given as to ``views``, that the place and the speed of each
+    other joint order, by what they are in words.
+    """
+    seen, result = _seen(runs, scenes, residuals, k, noise), {}
+    motions = [run.decimated(np.stack([s.motion.q, s.motion.qd])) for run, s in zip(runs, scenes, strict=True)]
+    both = np.concatenate([each[..., run.kept[k]] for each, run in zip(motions, runs, strict=True)], axis=-1)
+    for i, joint in enumerate(scenes[0].robot.moving):
+        for what, x in zip(("place", "speed"), both[:, i], strict=True):
+            if i != k and len(x) >= FEW_ROWS * BINS and np.ptp(x) > _CONSTANT * float(np.abs(x).max()):
+                result[f"the {what} of joint {joint.number}"] = _view(seen, what, "", x, (0,))[0].share
+    return result
+
+
+def _seen(
+    runs: Sequence[Prepared], scenes: Sequence[Scene], residuals: Sequence[Array], k: int, noise: Sequence[Colour]
+) -> _Rows:
+    kept = [run.kept[k] for run in runs]
+    return _Rows(
+        scenes[0].robot.moving[k].number,
+        np.concatenate([each[rows] for each, rows in zip(residuals, kept, strict=True)]),
+        joined(runs, [run.decimated(scene.motion.qd) for run, scene in zip(runs, scenes, strict=True)], k),
+        _of_means(noise, [int(rows.sum()) for rows in kept]),
+    )
 
 
 def _view(seen: _Rows, name: str, unit: str, x: Array, sides: Sequence[int]) -> list[View]:
