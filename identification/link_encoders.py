@@ -30,10 +30,9 @@ from identification.recipes import Filters, Recipe
 from identification.residuals import Residual
 from identification.run_filters import filters_of, notes_of
 from identification.shared_samples import unshared
+from identification.standstill import stands_throughout
 
 RECIPE = Recipe()
-#: Range [rad, m] within which a joint stands: its speed is noise, and the latency of a joint that stands.
-_STILL = 2e-3
 #: Number of the speed's sign among twist, torque and what the motion makes of the twist.
 _SIGN = 3
 #: What the filtered sign of a speed may be off one where the joint neither stands nor turns back.
@@ -197,7 +196,7 @@ def _of_then(
 
 def _stands(runs: Sequence[tuple[Run, Filters]], k: int) -> bool:
     """Whether a joint stands in all runs: its speed is noise, and tells no latency."""
-    return all(float(np.ptp(run.q[k])) < _STILL for run, _ in runs)
+    return all(stands_throughout(run.q[k]) for run, _ in runs)
 
 
 def _rows(runs: Sequence[tuple[Run, Filters]], k: int, joint: Joint, standstill: float, ago: float) -> TwistRows:
@@ -222,7 +221,7 @@ def _rows(runs: Sequence[tuple[Run, Filters]], k: int, joint: Joint, standstill:
         columns = decimated(np.stack([q - qs, torque, *own])[:, inner], filters.factor)
         bad = _bad(run, k, ceil(abs(ago) / run.period))
         turning = np.zeros(columns.shape[1], dtype=bool)
-        if np.ptp(run.q[k]) >= _STILL:
+        if not stands_throughout(run.q[k]):
             bad = bad | (np.abs(qd) <= standstill)
             turning = np.abs(np.abs(columns[_SIGN]) - 1) >= _ONE_WAY
         columns = columns[:, kept_rows(bad[inner], filters.factor) & ~turning]

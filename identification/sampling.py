@@ -24,8 +24,9 @@ from identification.recipes import Filters, Recipe
 _PART = 1 << 15
 #: Decimated rows at either end of which noise is larger than that of the others.
 _ENDS = 2
-#: Range [rad, m] within which a joint that never moves faster than the threshold counts as standing still.
-_STILL = 1e-3
+#: Range [rad, m] within which a joint that never moves faster than the threshold has no motion. Less than that of one
+#: that stands: there rows are left out, here what little moves is made zero.
+_UNMOVED = 1e-3
 
 
 @dataclass(frozen=True)
@@ -94,7 +95,7 @@ def sampled(
     qdd = rate(qd, run.period)
     inner = filters.inner(run.samples)
     limits = recipe.standstills(regressors.model.robot)
-    still = tuple(k for k in range(len(q)) if np.ptp(run.q[k]) < _STILL and np.abs(qd[k, inner]).max() <= limits[k])
+    still = tuple(k for k in range(len(q)) if np.ptp(run.q[k]) < _UNMOVED and np.abs(qd[k, inner]).max() <= limits[k])
     for k in still:
         q[k], qd[k], qdd[k] = run.q[k].mean(), 0.0, 0.0
     motion = regressors.completed(Motion(q, qd, qdd, warmth=run.warmth), run.period).part(inner.start, inner.stop)

@@ -28,7 +28,8 @@ def of_one_sign(runs: Sequence[Prepared], regressors: Regressors, prior: Prior |
     """
     ordered([run.sampled for run in runs], regressors)
     scenes = [Scene(run.sampled, regressors, {}) for run in runs]
-    for r in _reversed(Bank(runs, scenes)):
+    bank = Bank(runs, scenes)
+    for r in _reversed(bank):
         raise another_sign(runs[r].sampled.run.place, "those of the other runs")
     if prior is None:
         return
@@ -41,22 +42,20 @@ def of_one_sign(runs: Sequence[Prepared], regressors: Regressors, prior: Prior |
     numbers = regressors.model.robot.numbers
     right = {n for k, n in enumerate(numbers) if not _opposed(joined(runs, torques, k), joined(runs, expected, k))}
     if len(right) < len(numbers):
-        _as_inertia_and_friction(runs, Bank(runs, scenes), regressors, right)
+        _as_inertia_and_friction(bank, regressors, right)
 
 
 def _opposed(tau: Array, like: Array) -> bool:
     return bool(tau @ like < REVERSED * np.linalg.norm(tau) * np.linalg.norm(like))
 
 
-def _as_inertia_and_friction(
-    runs: Sequence[Prepared], bank: Bank, regressors: Regressors, right: Collection[int]
-) -> None:
+def _as_inertia_and_friction(bank: Bank, regressors: Regressors, right: Collection[int]) -> None:
     """Raises InputError where the runs alone say that inertia and friction of a joint are of the other sign, but for
     joints number ``right``: what is known may lack more than it has, as of an arm that a balancer holds.
     """
-    solution, covariance = plain_fit(bank, range(len(runs)))
+    solution, covariance = plain_fit(bank, range(len(bank.runs)))
     values, std = (dict(zip(bank.base, x.tolist(), strict=True)) for x in (solution, np.sqrt(np.diag(covariance))))
-    directed(runs[0].sampled.run.place, regressors.model, values, std, right)
+    directed(bank.runs[0].sampled.run.place, regressors.model, values, std, right)
 
 
 def explained(found: Diagnosis) -> list[str]:

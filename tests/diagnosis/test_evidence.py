@@ -13,6 +13,7 @@ from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.columns.hypothesis import Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.runs.prepared import prepared
 from identification.diagnosis.runs.scene import Scene
+from identification.diagnosis.search.more_than_noise import more_than_noise
 from identification.diagnosis.search.selection import Selection
 from identification.diagnosis.search.weighing import Weighing
 from identification.recipes import Recipe
@@ -30,6 +31,18 @@ def test_what_has_vanished_is_another_effect(true: float, found: set[str]) -> No
     law = np.stack([2.0 * np.exp(-((x[r] - np.log(true)) ** 2) / 8) for r in range(RUNS)])
     hidden = hypothesis("shaped", lambda r, given: np.exp(-((x[r] - np.log(given["v"])) ** 2) / 8), [shape])
     assert names(search(data.bank(law, [hidden]))) == found
+
+
+def test_more_than_noise_is_left_until_it_is_explained() -> None:
+    """A half of the noise, a quarter of its power."""
+    data = Data(8)
+    column = data.column()
+    one = data.bank(0.5 * column, [fixed("a", column)])
+    weighing = Weighing(one, TRAIN, VALIDATE, None)
+    assert more_than_noise(weighing, [], range(one.dof), 0.1)
+    assert not more_than_noise(weighing, [], range(one.dof), 0.4)
+    assert not more_than_noise(weighing, one.variants, [0], 0.1)
+    assert not more_than_noise(weighing, [], [], 0.0)
 
 
 def test_nothing_is_gained_by_what_single_runs_hardly_show() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from contextlib import nullcontext
 from pathlib import Path
 
 import numpy as np
@@ -10,10 +12,13 @@ import pytest
 from generator.errors import InputError
 from generator.robot.readers import read
 from identification.dataset import load
+from identification.diagnosis import plausibility
+from identification.diagnosis.columns.bank import Bank
 from identification.diagnosis.columns.normal_equations import Prior
 from identification.diagnosis.command import Request
 from identification.diagnosis.plausibility import of_one_sign
-from identification.diagnosis.runs.prepared import prepared
+from identification.diagnosis.runs.prepared import Prepared, prepared
+from identification.diagnosis.runs.scene import Scene
 from identification.inverse_model import identify
 from identification.recipes import Recipe
 from identification.suspicion import misread
@@ -128,9 +133,19 @@ def test_a_joint_that_is_read_wrong_is_told(
 
 @pytest.mark.parametrize(("turned", "held"), [(True, False), (False, False), (False, True)])
 def test_one_joint_is_of_the_other_sign_where_its_friction_and_inertia_say_so(
-    turned: bool, held: bool, tmp_path: Path
+    turned: bool, held: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """An arm that something unknown ``held`` up has torques that are the other way, too, and is none of that."""
+    """An arm that something unknown ``held`` up has torques that are the other way, too, and is none of that.
+
+    The columns of the runs are made once.
+    """
+    made: list[Bank] = []
+
+    def counted(runs: Sequence[Prepared], scenes: Sequence[Scene]) -> Bank:
+        made.append(Bank(runs, scenes))
+        return made[-1]
+
+    monkeypatch.setattr(plausibility, "Bank", counted)
     links = two_links(tmp_path)
     t, motion = fourier(links.model.robot, 20.0, 200.0, 1)
     tau = links.torques(LINKS, motion)
@@ -143,8 +158,7 @@ def test_one_joint_is_of_the_other_sign_where_its_friction_and_inertia_say_so(
     runs = [prepared(load(str(source), links.model.robot, {}), Recipe(), links)]
     mean = np.array([LINKS[name] for name in links.names])
     prior = Prior(mean, np.diag(1 / (0.05 * mean) ** 2))
-    if not turned:
+    alone = r"a.csv:1:1: all friction and inertia that the torques of joint 2 show alone"
+    with pytest.raises(InputError, match=alone) if turned else nullcontext():
         of_one_sign(runs, links, prior)
-        return
-    with pytest.raises(InputError, match=r"a.csv:1:1: all friction and inertia that the torques of joint 2 show alone"):
-        of_one_sign(runs, links, prior)
+    assert len(made) == 1

@@ -16,6 +16,7 @@ from identification.diagnosis.runs.prepared import Prepared, prepared
 from identification.diagnosis.runs.scene import Scene
 from identification.observation import Regressors
 from identification.recipes import Recipe
+from identification.standstill import stands_throughout
 from tests.diagnosis.diagnosed_arm import ARM, ready
 from tests.recorded import Recorded, as_recorded, fourier, two_links
 
@@ -26,6 +27,15 @@ def moved(folder: Path, t: NDArray[np.float64], q: NDArray[np.float64]) -> Prepa
     tau = np.sign(np.gradient(q)) + 0.1 * np.sin(3.7 * t)
     run = Recorded({"t": t, "q1": q, "tau1": tau}).save(folder / "a.csv")
     return ready(str(run), Regressors(read(folder / "arm.yaml")))
+
+
+def test_a_joint_that_hardly_moves_stands() -> None:
+    """One of two of a run, and one by itself."""
+    way = np.array([0.0, 1.0, 0.5])
+    moving, hardly = 2.1e-3 * way, 1.9e-3 * way
+    assert stands_throughout(np.stack([moving, hardly])).tolist() == [False, True]
+    assert stands_throughout(hardly)
+    assert not stands_throughout(moving)
 
 
 def test_a_reversal_passes_between_two_samples(tmp_path: Path) -> None:

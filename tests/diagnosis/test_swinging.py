@@ -11,7 +11,7 @@ import pytest
 from identification.diagnosis.columns.bank import Variant
 from identification.diagnosis.columns.hypothesis import DRIVE, EFFECT, ELASTIC, SIGNAL
 from identification.diagnosis.verdict.alternatives import OTHER_GEOMETRY, OTHER_TORQUE
-from identification.diagnosis.verdict.doubts import doubted, swinging
+from identification.diagnosis.verdict.doubts import doubted, doubted_drive_train
 from identification.diagnosis.verdict.finding import FIRM, TENTATIVE
 from identification.diagnosis.verdict.unexplained import _loose
 from tests.diagnosis.findings import finding
@@ -28,7 +28,7 @@ from tests.diagnosis.findings import finding
     ],
 )
 def test_far_more_than_noise_is_left(effect: str, kind: str, left: dict[int, float], status: str) -> None:
-    assert swinging(finding(effect, kind, 1e-5), left, 0.1).status == status
+    assert doubted_drive_train(finding(effect, kind, 1e-5), left, 0.1).status == status
 
 
 @pytest.mark.parametrize(
@@ -43,7 +43,7 @@ def test_values_that_are_not_told_one_by_one_are_not_firm_without_repetition(
 
 @pytest.mark.parametrize(("remains", "status"), [(0.25, FIRM), (0.35, TENTATIVE)])
 def test_much_of_what_was_explained_is_left(remains: float, status: str) -> None:
-    assert swinging(finding("backlash", ELASTIC, 1e-5), {2: 0.9}, remains).status == status
+    assert doubted_drive_train(finding("backlash", ELASTIC, 1e-5), {2: 0.9}, remains).status == status
 
 
 @pytest.mark.parametrize(
@@ -99,13 +99,13 @@ def test_each_doubt_says_why() -> None:
         "the runs do not determine its values to a fifth",
     )
     assert doubted(spring, 0.0, (), True).alternatives[0].effect == OTHER_TORQUE
-    assert swinging(finding("backlash", ELASTIC, 1e-5), {1: 1.5}, 0.0).doubts == (
+    assert doubted_drive_train(finding("backlash", ELASTIC, 1e-5), {1: 1.5}, 0.0).doubts == (
         "more than the noise is left on a joint that its torque reaches",
     )
 
 
 def test_a_gap_that_may_be_none_is_an_elasticity_as_well() -> None:
-    one = swinging(finding("backlash", ELASTIC, 4e-4), {}, 0.0)
+    one = doubted_drive_train(finding("backlash", ELASTIC, 4e-4), {}, 0.0)
     assert (one.status, [other.effect for other in one.alternatives]) == (TENTATIVE, ["joint_elasticity"])
-    assert swinging(finding("backlash", ELASTIC, 1e-4), {}, 0.0).status == FIRM
-    assert swinging(finding("joint_elasticity", ELASTIC, 4e-4), {}, 0.0).alternatives == ()
+    assert doubted_drive_train(finding("backlash", ELASTIC, 1e-4), {}, 0.0).status == FIRM
+    assert doubted_drive_train(finding("joint_elasticity", ELASTIC, 4e-4), {}, 0.0).alternatives == ()

@@ -17,13 +17,13 @@ from generator.errors import InputError
 from identification.arrays import Array
 from identification.dataset import Run
 from identification.diagnosis.runs.periods import repeating
-from identification.diagnosis.runs.scene import STILL
 from identification.diagnosis.runs.stated_elasticity import stated
 from identification.filtering import flat_derivative
 from identification.observation import Jump, Regressors, followed
 from identification.recipes import Recipe, possible_factor
 from identification.run_filters import fast_enough, filters_of
 from identification.sampling import Sampled, sampled
+from identification.standstill import stands_throughout
 
 #: Rows a second that are looked at; the motion's filter passes up to as many hertz.
 RATE = 50.0
@@ -210,7 +210,7 @@ def prepared(run: Run, recipe: Recipe, regressors: Regressors) -> Prepared:
     slow = _SLOW * usual
     apart = _apart(run.rate, factor)
     left_out = np.stack([_standing(x, limit, apart) for x, limit in zip(speed, slow, strict=True)])
-    left_out |= (np.ptp(one.motion.q, axis=-1) < STILL)[:, None]
+    left_out |= stands_throughout(one.motion.q)[:, None]
     left_out |= _at_rest(speed, regressors.signs, apart)
     # Whole samples: the period of written times is a little short of what it is.
     if round(_FORGOTTEN * run.samples) >= round(_MEMORY * run.rate):

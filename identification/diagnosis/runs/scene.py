@@ -18,9 +18,7 @@ from identification.drive_train import motor_torques
 from identification.filtering import flat_derivative
 from identification.observation import Motion, Regressors
 from identification.sampling import Sampled
-
-#: Range [rad, m] within which a joint stands in all of a run: its speed is noise.
-STILL = 2e-3
+from identification.standstill import stands_throughout
 
 
 class Beside(Protocol):
@@ -123,7 +121,7 @@ class Scene:
 
     def moves(self, k: int) -> bool:
         """Whether coordinate ``k`` moves."""
-        return bool(np.ptp(self.motion.q[k]) >= STILL)
+        return not stands_throughout(self.motion.q[k])
 
     @cached_property
     def torque(self) -> Array:

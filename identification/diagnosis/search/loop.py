@@ -17,7 +17,7 @@ from identification.diagnosis.columns.maps import maps
 from identification.diagnosis.columns.normal_equations import Normal, Prior
 from identification.diagnosis.columns.whitening import Colour, colour, stretches
 from identification.diagnosis.noise.effort_rounding import effort_rounding
-from identification.diagnosis.noise.errors_in_variables import redrawn
+from identification.diagnosis.noise.errors_in_variables import Redrawn, redrawn
 from identification.diagnosis.noise.least_noise import least
 from identification.diagnosis.noise.measured import colours
 from identification.diagnosis.noise.passing import Passing, passing, undisturbed
@@ -93,6 +93,24 @@ class Search:
         return self.weighing.normal.by_number(columns_of(variants), solution)
 
 
+@dataclass(frozen=True)
+class _Found:
+    """By what a turn makes its columns: variants that were found before, base parameters, and both as they act."""
+
+    chosen: Sequence[Variant]
+    values: Mapping[str, float]
+    acting: Acting
+
+
+@dataclass(frozen=True)
+class _Noise:
+    """What counts as noise beside its colours: as ``Search`` has it, and ``noisy`` runs as ``Weighing`` has them."""
+
+    rounded: tuple[Array, ...]
+    noisy: Mapping[int, Redrawn]
+    maps: Sequence[Sequence[Array]]
+
+
 def search(
     runs: Sequence[Prepared],
     train: Sequence[int],
@@ -111,51 +129,35 @@ def search(
     if passed := () if dry else _passing(runs, regressors, values):
         runs = [undisturbed(run, passed) for run in runs]
         values = first_values(runs, train, regressors, prior)
-    chosen: list[Variant] = []
-    acting, lasting = Acting(), Lasting()
-    longer = lengths.hypotheses(regressors.model)
+    before = _Found((), values, Acting())
+    lasting, longer = Lasting(), lengths.hypotheses(regressors.model)
     for turn in range(_PASSES + 1):
         progress("making the columns of every candidate" if turn == 0 else "making them anew with what was found")
-        clear = [run.without_standstill(acting.jumps) for run in runs]
-        near = free or turn + 1 >= _PASSES
-        scenes = [Scene(run.sampled, regressors, values, acting, near) for run in clear]
-        bank = Bank(clear, scenes, lasting)
+        bank = _bank(runs, regressors, before, free or turn + 1 >= _PASSES, lasting)
         offered, later = _offered(bank, train)
-        chosen = [again for old in chosen if (again := _again(bank, [*offered, *later, *longer], old)) is not None]
+        start = _carried_on(bank, [*offered, *later, *longer], before.chosen)
         progress("measuring the noise")
-        rounded, noisy, may_follow = _rounded(clear, scenes), redrawn(clear, scenes), maps(clear, scenes)
-        bank.whiten(colours(bank, rounded, may_follow, noisy))
-        weighing = Weighing(bank, train, validate, prior, noisy, free)
+        noise = _whitened(bank)
+        weighing = Weighing(bank, train, validate, prior, noise.noisy, free)
         progress("weighing the evidence")
-        choices = [] if dry else searched(weighing, chosen, later, longer)
-        chosen = [one.evidence.variant for one in choices]
-        solution, covariance = weighing.fitted(chosen)
-        before, acting, old = acting, Acting.found(bank, chosen, solution), values
-        values = bank.values(solution)
-        depends = acting.again or (regressors.reads_load and bool(acting.variants))
-        if acting.jumps == before.jumps and (not depends or acting.near(before)):
-            break
+        choices = [] if dry else searched(weighing, start, later, longer)
+        found, covariance = _fitted(weighing, choices)
         # Beside a gain that is not settled no parameter of what it scales has its value.
-        doubles = doubling.doubling(acting)
-        if turn + 1 == _PASSES + doubles:
+        doubles = doubling.doubling(found.acting)
+        if _stays(found.acting, before.acting, regressors) or turn + 1 == _PASSES + doubles:
             break
-        if swinging(chosen) and turn + 1 < _PASSES:
-            progress("settling how drive trains swing")
-            chosen, values, acting = settled(weighing, chosen)
-        elif doubles:
-            progress("settling how large a gain is")
-            chosen, values, acting = doubling.settled(weighing, chosen, old)
+        before = _settled(weighing, found, before, turn + 1 < _PASSES, doubles, progress)
     return Search(
         bank=bank,
         weighing=weighing,
         choices=tuple(choices),
-        values=bank.values(solution),
+        values=found.values,
         covariance=covariance,
         offered=tuple(offered),
         train=tuple(train),
         validate=tuple(validate),
-        rounded=rounded,
-        maps=may_follow,
+        rounded=noise.rounded,
+        maps=noise.maps,
         passing=passed,
     )
 
@@ -177,6 +179,13 @@ def _with_drive_trains(prior: Prior | None, regressors: Regressors) -> Prior | N
     return (prior or unknown).beside(list(map(stated_elasticity.precision, more)))
 
 
+def _bank(runs: Sequence[Prepared], regressors: Regressors, before: _Found, settled: bool, lasting: Lasting) -> Bank:
+    """Of scenes in which acts what was found ``before``, beside values of the base parameters that are ``settled``."""
+    clear = [run.without_standstill(before.acting.jumps) for run in runs]
+    scenes = [Scene(run.sampled, regressors, before.values, before.acting, settled) for run in clear]
+    return Bank(clear, scenes, lasting)
+
+
 def _offered(bank: Bank, train: Sequence[int]) -> tuple[Sequence[Hypothesis], Sequence[Hypothesis]]:
     """What the runs number ``train`` may show, its columns now in the bank; and other shapes of what the file has,
     which are looked for where that does not do.
@@ -187,12 +196,9 @@ def _offered(bank: Bank, train: Sequence[int]) -> tuple[Sequence[Hypothesis], Se
     return offered, later
 
 
-def _rounded(runs: Sequence[Prepared], scenes: Sequence[Scene]) -> tuple[Array, ...]:
-    """Of each run, what rounding of positions and efforts makes of torques, and the least that counts as noise."""
-    return tuple(
-        rounding(run, scene, r) + effort_rounding(run, scene) + least(run, r)
-        for r, (run, scene) in enumerate(zip(runs, scenes, strict=True))
-    )
+def _carried_on(bank: Bank, offered: Sequence[Hypothesis], chosen: Sequence[Variant]) -> list[Variant]:
+    """What was ``chosen`` in the turn before, among the columns of this one, as far as they have it."""
+    return [again for old in chosen if (again := _again(bank, offered, old)) is not None]
 
 
 def _again(bank: Bank, offered: Sequence[Hypothesis], old: Variant) -> Variant | None:
@@ -206,6 +212,51 @@ def _again(bank: Bank, offered: Sequence[Hypothesis], old: Variant) -> Variant |
         if same and one.variants[0].keys() == old.shape.keys():
             return bank.add(one, {**old.shape, **one.given})
     return None
+
+
+def _whitened(bank: Bank) -> _Noise:
+    """The noise of the runs of a ``bank``, by whose colours its rows are white now."""
+    runs, scenes = bank.runs, bank.scenes
+    noise = _Noise(_rounded(runs, scenes), redrawn(runs, scenes), maps(runs, scenes))
+    bank.whiten(colours(bank, noise.rounded, noise.maps, noise.noisy))
+    return noise
+
+
+def _rounded(runs: Sequence[Prepared], scenes: Sequence[Scene]) -> tuple[Array, ...]:
+    """Of each run, what rounding of positions and efforts makes of torques, and the least that counts as noise."""
+    return tuple(
+        rounding(run, scene, r) + effort_rounding(run, scene) + least(run, r)
+        for r, (run, scene) in enumerate(zip(runs, scenes, strict=True))
+    )
+
+
+def _fitted(weighing: Weighing, choices: Sequence[Choice]) -> tuple[_Found, Array]:
+    """What was chosen with the base parameters beside it, and the covariance of all coefficients."""
+    chosen = [one.evidence.variant for one in choices]
+    solution, covariance = weighing.fitted(chosen)
+    acting = Acting.found(weighing.bank, chosen, solution)
+    return _Found(chosen, weighing.bank.values(solution), acting), covariance
+
+
+def _stays(acting: Acting, before: Acting, regressors: Regressors) -> bool:
+    """Whether columns made anew by what is ``acting`` now would be those that were made by what was ``before``."""
+    depends = acting.again or (regressors.reads_load and bool(acting.variants))
+    return acting.jumps == before.jumps and (not depends or acting.near(before))
+
+
+def _settled(
+    weighing: Weighing, found: _Found, before: _Found, early: bool, doubles: bool, progress: Callable[[str], None]
+) -> _Found:
+    """What the next turn makes its columns by: what was ``found``, with how drive trains swing settled while it is
+    ``early``, or else with a gain that ``doubles`` a torque or halves it.
+    """
+    if early and swinging(found.chosen):
+        progress("settling how drive trains swing")
+        return _Found(*settled(weighing, found.chosen))
+    if doubles:
+        progress("settling how large a gain is")
+        return _Found(*doubling.settled(weighing, found.chosen, before.values))
+    return found
 
 
 def first_values(

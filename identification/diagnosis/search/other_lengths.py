@@ -11,11 +11,12 @@ from collections.abc import Collection, Sequence
 from identification.diagnosis.columns.bank import Variant
 from identification.diagnosis.columns.hypothesis import LENGTH, Hypothesis, Key
 from identification.diagnosis.search import other_shapes
+from identification.diagnosis.search.more_than_noise import more_than_noise
 from identification.diagnosis.search.selection import Choice, Selection
 from identification.diagnosis.search.tied_shapes import tied_cost
 from identification.diagnosis.search.weighing import Weighing
 
-#: Part of the noise's power from which what is left of a joint counts.
+#: Part of the noise's power from which what is left of a joint counts where nothing was found.
 _LEFT = 0.05
 #: By how much a length must make what is missing cost less, at least and as a part of what stood in for it.
 _BETTER, _PART = 20.0, 0.01
@@ -31,19 +32,12 @@ def searched(
     before = {one.key for one in start if one.hypothesis.kind == LENGTH}
     found = other_shapes.searched(weighing, [one for one in start if one.key not in before], shapes)
     chosen = [one.evidence.variant for one in found]
-    if not (chosen or _lacks(weighing)):
+    if not (chosen or more_than_noise(weighing, [], range(weighing.bank.dof), _LEFT)):
         return found
     weighing.bank.offer(lengths)
     weighing.refresh()
     more = _with_another(weighing, Selection(weighing), chosen, before)
     return found if more is None else Selection(weighing).choices(more)
-
-
-def _lacks(weighing: Weighing) -> bool:
-    """Whether more than noise is left on a joint where nothing was found."""
-    weights = weighing.fitted_to(weighing.train, [])
-    left = [weighing.bank.left_over(k, weights, weighing.train) for k in range(weighing.bank.dof)]
-    return any(power > (1 + _LEFT) * rows for power, rows in left)
 
 
 def _with_another(

@@ -11,11 +11,12 @@ from collections.abc import Sequence
 from identification.diagnosis.columns.bank import Variant
 from identification.diagnosis.columns.hypothesis import SHAPE, Hypothesis
 from identification.diagnosis.search import load_or_gains
+from identification.diagnosis.search.more_than_noise import more_than_noise
 from identification.diagnosis.search.selection import Choice, Selection
 from identification.diagnosis.search.tied_shapes import best_tied, refined_tied, tied_cost, whole
 from identification.diagnosis.search.weighing import Weighing
 
-#: Part of the noise's power from which what is left of a joint counts.
+#: Part of the noise's power from which what is left of a shape's joint counts beside what was found.
 _LEFT = 0.1
 #: By how much another shape must cost less than what stands in for it, at least and as a part of what that explains.
 _BETTER, _PART = 6.0, 0.05
@@ -27,7 +28,7 @@ def searched(weighing: Weighing, start: Sequence[Variant], shapes: Sequence[Hypo
     """
     found = load_or_gains.searched(weighing, [one for one in start if one.hypothesis.kind != SHAPE])
     chosen = _variants(found)
-    asked = [one for one in shapes if _lacks(weighing, chosen, one)]
+    asked = [one for one in shapes if _asks(weighing, chosen, one)]
     weighing.bank.offer(asked)
     weighing.refresh()
     selection = Selection(weighing)
@@ -42,14 +43,11 @@ def _variants(choices: Sequence[Choice]) -> list[Variant]:
     return [one.evidence.variant for one in choices]
 
 
-def _lacks(weighing: Weighing, chosen: Sequence[Variant], shape: Hypothesis) -> bool:
+def _asks(weighing: Weighing, chosen: Sequence[Variant], shape: Hypothesis) -> bool:
     """Whether something was found on the joint of a shape, or more than noise is left there."""
-    bank = weighing.bank
     if any(shape.joint in one.hypothesis.numbers for one in chosen):
         return True
-    weights = weighing.fitted_to(weighing.train, chosen)
-    left, rows = bank.left_over(bank.robot.numbers.index(shape.joint), weights, weighing.train)
-    return left > (1 + _LEFT) * rows
+    return more_than_noise(weighing, chosen, [weighing.bank.robot.numbers.index(shape.joint)], _LEFT)
 
 
 def _with_another(weighing: Weighing, chosen: Sequence[Variant], shapes: Sequence[Hypothesis]) -> list[Variant] | None:

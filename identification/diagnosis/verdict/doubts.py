@@ -152,7 +152,7 @@ def beside_warming(told: Sequence[Finding]) -> list[Finding]:
     ]
 
 
-def swinging(one: Finding, left: Mapping[int, float], remains: float) -> Finding:
+def doubted_drive_train(one: Finding, left: Mapping[int, float], remains: float) -> Finding:
     """Tentative where a drive train explains how a link swings and far more than noise is ``left`` all the same on a
     joint that its torque reaches, or much ``remains`` where it is largest, in parts of it; and where its gap is hardly
     more than none.

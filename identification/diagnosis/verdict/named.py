@@ -20,7 +20,7 @@ from identification.diagnosis.verdict.doubts import (
     beside_drive_trains,
     beside_warming,
     doubted,
-    swinging,
+    doubted_drive_train,
 )
 from identification.diagnosis.verdict.finding import Finding
 from identification.diagnosis.verdict.gap_crossings import left_between
@@ -79,7 +79,7 @@ def findings(
     free = found.weighing.free
     told = [doubted(one, _remains(found, one, left), several, found.repeats, free) for one in result]
     settled = [left_between(found, one.evidence, left) if one.hypothesis.effect == "backlash" else left for one in told]
-    told = [swinging(one, rest, _remains(found, one, rest)) for one, rest in zip(told, settled, strict=True)]
+    told = [doubted_drive_train(one, rest, _remains(found, one, rest)) for one, rest in zip(told, settled, strict=True)]
     told = beside_warming(beside_drive_trains(beside_any_torque(told)))
     return tuple(sorted(told, key=lambda one: -one.evidence.drop))
 
