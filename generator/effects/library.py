@@ -239,7 +239,7 @@ def _effect(use: EffectUse) -> Effect:
     return effect
 
 
-def _ratios(use: EffectUse, effect: Effect, robot: Robot, joint: Joint) -> dict[int, sympy.Rational]:
+def _ratios(use: EffectUse, effect: Effect, robot: Robot, joint: Joint) -> dict[int, sympy.Expr]:
     """The row of the joint's motor in N, without its zeros, for an effect that needs it."""
     if "motor" not in effect.needs:
         return {}
@@ -247,7 +247,7 @@ def _ratios(use: EffectUse, effect: Effect, robot: Robot, joint: Joint) -> dict[
         raise InputError(use.place, f"effect {effect.id} needs the motor's position", "drives with gear_ratios")
     row = robot.drives.coupling[robot.moving.index(joint)]
     pairs = zip(robot.moving, row, strict=True)
-    return {other.number: sympy.Rational(n.numerator, n.denominator) for other, n in pairs if n}
+    return {other.number: ratio for other, ratio in pairs if ratio != 0}
 
 
 def _values(use: EffectUse, effect: Effect, joint: Joint, robot: Robot) -> dict[str, sympy.Expr]:
