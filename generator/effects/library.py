@@ -256,16 +256,24 @@ def _values(use: EffectUse, effect: Effect, joint: Joint, robot: Robot) -> dict[
         if name not in shapes:
             known = nearest(name, shapes)
             raise InputError(quantity.place, f"effect {effect.id} has no value {name!r}", known)
-    between = _unit_between(use, effect, joint, robot)
+    others = [use.values[shape.name].value for shape in effect.shapes if shape.joint and shape.name in use.values]
+    between = _unit_between(others, joint, robot)
     units = {name: (shape.unit_on(joint), between if shape.per_other else "") for name, shape in shapes.items()}
     return {name: _value(use, effect, shape, *units[name]) for name, shape in shapes.items()}
 
 
-def _unit_between(use: EffectUse, effect: Effect, joint: Joint, robot: Robot) -> str:
-    """The unit of the joint's motion per that of the other joint in ``values``; empty where they are of one kind."""
-    numbers = [use.values[shape.name].value for shape in effect.shapes if shape.joint and shape.name in use.values]
+def _unit_between(numbers: Collection[sympy.Expr], joint: Joint, robot: Robot) -> str:
+    """The unit of the joint's motion per that of the joint in ``numbers``; empty where they are of one kind."""
     kinds = {other.sigma for other in robot.moving if other.number in numbers}
     return ("rad/m", "m/rad")[joint.sigma == PRISMATIC] if kinds - {joint.sigma} else ""
+
+
+def unit_of(shape: Shape, instance: Instance, robot: Robot) -> str:
+    """The SI unit of a shape value of an effect on its joint; that of a ratio between two joints is by their kinds."""
+    given = instance.site.values
+    others = [given[one.name] for one in instance.effect.shapes if one.joint]
+    between = _unit_between(others, instance.joint, robot) if shape.per_other else ""
+    return between or shape.unit_on(instance.joint)
 
 
 def _value(use: EffectUse, effect: Effect, shape: Shape, unit: str, between: str = "") -> sympy.Expr:
