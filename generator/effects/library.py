@@ -151,7 +151,7 @@ def missing_limits(robot: Robot) -> list[tuple[Place, str]]:
     found: list[tuple[Place, str]] = []
     for instance in effects_of(robot):
         joint, effect = instance.joint, instance.effect
-        if joint.lower is None or joint.upper is None:
+        if joint.limits is None:
             values = robot.use(effect.id, joint.number).values
             for one, least in _not_positive(effect, instance.site, -sympy.pi, sympy.pi):
                 problem = f"{one.value} is {one.problem} for joint {joint.number} without limits"

@@ -73,6 +73,11 @@ class Joint:
         return sympy.Symbol(f"q{self.number}", real=True)
 
     @property
+    def limits(self) -> tuple[float, float] | None:
+        """The lower and the upper limit of its variable [rad, m], of which no file gives one alone; None without."""
+        return None if self.lower is None or self.upper is None else (float(self.lower), float(self.upper))
+
+    @property
     def position_unit(self) -> str:
         """Of its variable; speeds and accelerations are by s and s2."""
         return "m" if self.sigma == PRISMATIC else "rad"
