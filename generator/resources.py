@@ -34,7 +34,9 @@ def templates() -> Path:
 
 def robots() -> list[Path]:
     """The robot files that ``find_robot`` knows by name, sorted."""
-    return sorted(path for path in data_folder("robots").glob("*") if _is_robot_file(path) and path.is_file())
+    endings = _endings()
+    files = (path for path in data_folder("robots").glob("*") if path.suffix.lower() in endings)
+    return sorted(path for path in files if path.is_file())
 
 
 def find_robot(name_or_path: str) -> Path:
@@ -43,7 +45,7 @@ def find_robot(name_or_path: str) -> Path:
     Raises InputError where there is none.
     """
     path = Path(name_or_path)
-    if _is_robot_file(path) or "/" in name_or_path or os.sep in name_or_path:
+    if path.suffix.lower() in _endings() or "/" in name_or_path or os.sep in name_or_path:
         if not os.path.exists(path):
             raise InputError(Place(name_or_path), "there is no such file", "the path of a robot file")
         return path
@@ -59,9 +61,9 @@ def find_robot(name_or_path: str) -> Path:
     )
 
 
-def _is_robot_file(path: Path) -> bool:
-    """Whether a reader takes files of that name."""
+def _endings() -> tuple[str, ...]:
+    """The endings of the files' names that a reader takes."""
     # Readers take as long to import as all the rest of a command that reads no robot.
     from generator.robot.readers import endings
 
-    return path.suffix.lower() in endings()
+    return endings()

@@ -87,8 +87,8 @@ def positions(q: Array, found: Measured, robot: Robot, period: float, where: Whe
 
 def _inside(x: Array, joint: Joint, name: str, where: Where) -> None:
     unit = joint.position_unit
-    if joint.lower is not None and joint.upper is not None:
-        lower, upper = float(joint.lower), float(joint.upper)
+    if joint.limits is not None:
+        lower, upper = joint.limits
         allowed = _BEYOND * (upper - lower)
         bad = np.flatnonzero((x < lower - allowed) | (x > upper + allowed))
         if bad.size:

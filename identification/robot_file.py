@@ -8,8 +8,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ruamel.yaml import YAML
-
 from generator.robot import fields
 from generator.robot.description import ParameterSet, ParameterValue
 from generator.robot.document import Text
@@ -55,7 +53,7 @@ def with_parameter_set(text: str, one: ParameterSet, file: str = "robot file") -
     """
     text = with_single_ends(text).rstrip() + "\n"
     _check(text, file)
-    root = YAML(typ="safe", pure=True).compose(text)
+    root = yaml.composed(text)
     above = _Layout(root.start_mark.column + (2 if root.flow_style else 0), braces=root.flow_style)
     sets = next((value for key, value in root.value if key.value == _SECTION), None)
     section = _table(_SECTION, [_written(one, above.within)], above)

@@ -7,8 +7,6 @@ from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from typing import Any
 
-from ruamel.yaml import YAML
-
 from generator.robot.content import robot_from
 from generator.robot.description import Robot
 from generator.robot.readers import yaml
@@ -148,7 +146,7 @@ def _find(text: str, path: Path) -> Any:
 @lru_cache(maxsize=1)
 def _root(text: str) -> Any:
     """The whole file; of the text that was asked for last it is kept."""
-    return YAML(typ="safe", pure=True).compose(text)
+    return yaml.composed(text)
 
 
 def _end(text: str, node: Any) -> int:

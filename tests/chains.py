@@ -271,12 +271,13 @@ def every_effect() -> Robot:
         joint(3, PRISMATIC, -pi / 2, d=Rational(1, 4)),
         joint(4, FIXED, r=Rational(1, 5), tool=True),
     )
+    ratios = (Integer(60), Rational(-165, 4), 25 * pi)
     drives = Drives(
-        (Fraction(60), Fraction(-165, 4), Fraction(80)),
+        ratios,
         (
-            (Fraction(60), Fraction(0), Fraction(0)),
-            (Fraction(5, 4), Fraction(-165, 4), Fraction(0)),
-            (Fraction(0), Fraction(0), Fraction(80)),
+            (ratios[0], Integer(0), Integer(0)),
+            (Rational(5, 4), ratios[1], Integer(0)),
+            (Integer(0), Integer(0), ratios[2]),
         ),
         {"cold": (Fraction(1), Fraction(6, 5), Fraction(4, 5))},
         "cold",
@@ -354,10 +355,10 @@ def gas_balancer(joints: tuple[int, ...], draw: Random) -> EffectUse:
 def _random_drives(draw: Random, count: int) -> Drives | None:
     if draw.random() < 0.4:
         return None
-    ratios = tuple(Fraction(draw.choice((-1, 1)) * draw.randint(50, 3000), draw.randint(1, 20)) for _ in range(count))
+    ratios = tuple(Rational(draw.choice((-1, 1)) * draw.randint(50, 3000), draw.randint(1, 20)) for _ in range(count))
     coupling = tuple(
         tuple(
-            ratios[i] if i == k else Fraction(draw.randint(-5, 5), 3) if k < i and draw.random() < 0.4 else Fraction(0)
+            ratios[i] if i == k else Rational(draw.randint(-5, 5), 3) if k < i and draw.random() < 0.4 else Integer(0)
             for k in range(count)
         )
         for i in range(count)

@@ -49,7 +49,7 @@ parameters:
       ML: 175 kg
 """
 
-_SIGNS = str.maketrans({"⏎": "\n", "⇥": "\t", "␇": "\a", "∅": ""})
+_SIGNS = str.maketrans({"⏎": "\n", "⇥": "\t", "␇": "\a", "␣": "\u200b", "∅": ""})
 
 
 def _cases() -> list[tuple[str, str, str]]:
@@ -133,6 +133,15 @@ def test_joiners_of_letters_are_no_control_characters(tmp_path: Path) -> None:
     told = "\u0645\u06cc\u200c\u062e\u0648\u0627\u0647\u0645 \U0001f469\u200d\U0001f527"
     file.write_text(GOOD.replace("a small arm", told), encoding="utf-8")
     assert read(file).description == told
+
+
+@pytest.mark.parametrize("space", ["\u00a0", "\u202f", "\u3000"])
+def test_a_space_of_any_kind_is_a_blank(space: str, tmp_path: Path) -> None:
+    file = tmp_path / "arm.yaml"
+    file.write_text(GOOD)
+    plain = read(file)
+    file.write_text(GOOD.replace(" ", space), encoding="utf-8")
+    assert read(file) == plain
 
 
 @pytest.mark.parametrize("name", ["arm.yaml", "arm"])

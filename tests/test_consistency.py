@@ -192,6 +192,15 @@ def test_set_is_written_and_read_back(text: str, tmp_path: Path) -> None:
     assert max(map(len, written.splitlines())) <= 120
 
 
+def test_a_file_of_no_break_spaces_takes_a_set(tmp_path: Path) -> None:
+    text = f"{PENDULUM}parameters:\n  cad: {{values: {{Fc1: 1 N m}}}}\n".replace(" ", "\u00a0")
+    written = with_parameter_set(text, SET)
+    assert written.startswith(text)
+    one = read_back(written, tmp_path)
+    assert {name: value.value for name, value in one.values.items()} == READ_BACK
+    assert with_parameter_set(written, SET) == written
+
+
 @pytest.mark.parametrize("path", robots(), ids=lambda path: path.stem)
 def test_the_rest_of_a_robot_file_stays(path: Path, tmp_path: Path) -> None:
     text = path.read_text()

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import sympy
 
 from generator.resources import find_robot
 from generator.robot.description import Drives
@@ -94,6 +95,41 @@ def test_one_coupling_coefficient_is_what_one_joint_turns_another_by(name: str, 
     joints = np.linalg.solve(N, N[3, 3] * np.eye(6)[3])
     N54, N64, _ = COEFFICIENTS[name]
     assert close(joints, [0, 0, 0, 1, float(N54), float(N64)])
+
+
+SPINDLE = """\
+name: spindle
+gravity: [0 m/s2, 0 m/s2, -9.81 m/s2]
+joints:
+  - {j: 1, sigma: 0, alpha: 0, d: 0, theta: q1, r: 0}
+  - {j: 2, sigma: 1, alpha: 0, d: 0, theta: 0, r: q2}
+  - {j: 3, sigma: 0, alpha: pi/2, d: 0, theta: q3, r: 0}
+drives:
+  gear_ratios: [-100, 2*pi/0.01, 858/7]
+  coupling: {convention: row, N21: 0.01/(2*pi), N32: pi/3}
+  torque_constants: {unit: N m/A, use: warm, warm: [0.8, 0.5, 0.4]}
+effects:
+  - {effect: motor_ripple, joints: [2]}
+"""
+
+
+def test_the_ratio_of_a_spindle_is_exact(tmp_path: Path) -> None:
+    file = tmp_path / "spindle.yaml"
+    file.write_text(SPINDLE)
+    robot = read(file)
+    assert robot.drives is not None
+    assert robot.drives.coupling == (
+        (-100, 0, 0),
+        (-1, 200 * sympy.pi, 0),
+        (Fraction(143, 700), -286 * sympy.pi / 7, Fraction(858, 7)),
+    )
+    spindle = subject(robot, names=(*MAPS, "inverse_dynamics"))
+    qr = np.array([-30.0, 2 * np.pi * 50 - 0.3, 0.0])
+    assert close(spindle.output("joint_position", qr=qr)[:2], [0.3, 0.5], 1e-14)
+    for function in spindle.model.functions:
+        inputs = spindle.inputs(spindle.model.functions[function], 1)
+        for name, values in spindle.expected(function, inputs).items():
+            assert close(spindle.generated(function, inputs)[name], values, 1e-12)
 
 
 @pytest.fixture(scope="module", params=["kr270", "kr500"])

@@ -26,8 +26,9 @@ signals:
   position_offset: [0.5 deg]
 parameters:""",
 ).replace(
-    "effects:",
-    """base: {rotation: [40 deg, 0 deg, 0 deg], translation: [0 m, 0 m, 0.25 m]}
+    "r: 0}\neffects:",
+    """r: 0, limits: [-90 deg, 1.5 rad], speed_limit: 100 deg/s, acceleration_limit: 5 rad/s2, torque_limit: 0.3 kN m}
+base: {rotation: [40 deg, 0 deg, 0 deg], translation: [0 m, 0 m, 0.25 m]}
 effects:
   - {effect: stribeck_friction, joints: [1], values: {vs: 0.05 rad/s, exponent: 2}}""",
 )
@@ -60,6 +61,16 @@ def test_the_gas_balancer_and_the_drives_of_the_report() -> None:
     assert "Elastic drive trains: joints 1 to 6." in text
 
 
+def test_all_limits_of_a_joint_are_told(tmp_path: Path) -> None:
+    path = tmp_path / "pendulum.yaml"
+    path.write_text(STATED)
+    told = files(derive(read(path), (), check=False))
+    assert "| -90 to 85.944 deg; 1.745329 rad/s, 5 rad/s2, 300 N m either way |" in told["groupings.md"]
+    path.write_text(STATED.replace("limits: [-90 deg, 1.5 rad], speed_limit: 100 deg/s, ", ""))
+    told = files(derive(read(path), (), check=False))
+    assert "| 5 rad/s2, 300 N m either way |" in told["groupings.md"]
+
+
 @pytest.mark.parametrize(
     ("old", "new"),
     [
@@ -73,6 +84,10 @@ def test_the_gas_balancer_and_the_drives_of_the_report() -> None:
         ("exponent: 2", "exponent: 1"),
         ("40 deg, 0 deg, 0 deg", "50 deg, 0 deg, 0 deg"),
         ("0.25 m", "0.26 m"),
+        ("-90 deg", "-91 deg"),
+        ("100 deg/s", "101 deg/s"),
+        ("5 rad/s2", "6 rad/s2"),
+        ("0.3 kN m", "0.4 kN m"),
     ],
 )
 def test_another_value_is_another_text(tmp_path: Path, old: str, new: str) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from generator.derivation import derive
@@ -51,6 +53,16 @@ def test_a_slides_gear_ratio_and_drive_gain_have_its_units(mixed: Model) -> None
     assert "drive gain 1 −200 rad/m −200 rad/m 0.8 −160 N/A 2 100 100 0.5 50 N m/A" in text.replace("− ", "−")
     assert "| 1 | -200 rad/m | -200 0 | 0.8 |" in files(mixed)["groupings.md"]
     assert "| 2 | 100 | 0 100 | 0.5 |" in files(mixed)["groupings.md"]
+
+
+def test_a_spindles_gear_ratio_has_pi(tmp_path: Path) -> None:
+    path = tmp_path / "slide_and_turn.yaml"
+    path.write_text(SLIDE_AND_TURN.replace("-200, 100", "-2*pi/0.03, 100"))
+    of = derive(read(path))
+    text = words(of).replace("− ", "−")
+    assert "−209.44 rad/m 0.8 −167.552 N/A 2 100 100 0.5" in text
+    assert "π" in text
+    assert "| 1 | -200*pi/3 rad/m | -200*pi/3 0 | 0.8 |" in files(of)["groupings.md"]
 
 
 def test_one_elastic_joint_is_one(mixed: Model) -> None:

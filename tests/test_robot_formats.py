@@ -36,6 +36,15 @@ def test_a_file_of_a_new_format_is_found_by_its_path_and_in_the_folder_of_robots
         readers.read(folder / "robots" / "notes.txt")
 
 
+def test_the_readers_are_looked_up_once_for_a_folder(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in "abc":
+        (folder / "robots" / f"{name}.yaml").write_text(PENDULUM)
+    looked: list[ModuleType] = []
+    monkeypatch.setattr(readers, "modules", lambda package: looked.append(package) or [yaml])
+    assert len(robots()) == 3
+    assert looked == [readers]
+
+
 def test_an_ending_in_capitals_is_one(folder: Path) -> None:
     Path("MINE.YAML").write_text(PENDULUM)
     assert readers.read(find_robot("MINE.YAML")).name == "pendulum"

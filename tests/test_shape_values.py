@@ -16,6 +16,7 @@ from generator.errors import InputError
 from generator.robot.description import PRISMATIC
 from generator.robot.readers import read
 from tests.commands import PENDULUM
+from tests.reviewed import files
 
 
 @pytest.mark.parametrize(
@@ -91,6 +92,20 @@ def test_a_ratio_between_a_slide_and_a_revolute_joint_may_state_its_unit(
     else:
         (instance,) = effects_of(read(path))
         assert instance.site.values["ratio"] == told
+
+
+@pytest.mark.parametrize(
+    ("joint", "other", "ratio", "shown"),
+    [(1, 2, "314", "314 rad/m"), (2, 1, "3 mm/rad", "0.003 m/rad"), (1, 3, "-7/4", "-1.75")],
+)
+def test_the_review_tells_the_unit_of_a_ratio_between_a_slide_and_a_revolute_joint(
+    joint: int, other: int, ratio: str, shown: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "screw.yaml"
+    path.write_text(SCREW.replace("JOINT", str(joint)).replace("OTHER", str(other)).replace("RATIO", ratio))
+    told = files(derive(read(path), (), check=False))
+    assert f"| coupled_rotor | {joint} | other = {other}, ratio = {shown} |" in told["groupings.md"]
+    assert f"<td>{shown}</td>" in told["review.html"].replace("\u2212", "-").replace("\u00a0", " ")
 
 
 def test_the_kinds_of_joint_that_an_effect_needs_are_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

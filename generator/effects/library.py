@@ -151,7 +151,7 @@ def missing_limits(robot: Robot) -> list[tuple[Place, str]]:
     found: list[tuple[Place, str]] = []
     for instance in effects_of(robot):
         joint, effect = instance.joint, instance.effect
-        if joint.lower is None or joint.upper is None:
+        if joint.limits is None:
             values = robot.use(effect.id, joint.number).values
             for one, least in _not_positive(effect, instance.site, -sympy.pi, sympy.pi):
                 problem = f"{one.value} is {one.problem} for joint {joint.number} without limits"
@@ -239,7 +239,7 @@ def _effect(use: EffectUse) -> Effect:
     return effect
 
 
-def _ratios(use: EffectUse, effect: Effect, robot: Robot, joint: Joint) -> dict[int, sympy.Rational]:
+def _ratios(use: EffectUse, effect: Effect, robot: Robot, joint: Joint) -> dict[int, sympy.Expr]:
     """The row of the joint's motor in N, without its zeros, for an effect that needs it."""
     if "motor" not in effect.needs:
         return {}
@@ -247,7 +247,7 @@ def _ratios(use: EffectUse, effect: Effect, robot: Robot, joint: Joint) -> dict[
         raise InputError(use.place, f"effect {effect.id} needs the motor's position", "drives with gear_ratios")
     row = robot.drives.coupling[robot.moving.index(joint)]
     pairs = zip(robot.moving, row, strict=True)
-    return {other.number: sympy.Rational(n.numerator, n.denominator) for other, n in pairs if n}
+    return {other.number: ratio for other, ratio in pairs if ratio != 0}
 
 
 def _values(use: EffectUse, effect: Effect, joint: Joint, robot: Robot) -> dict[str, sympy.Expr]:
@@ -256,16 +256,24 @@ def _values(use: EffectUse, effect: Effect, joint: Joint, robot: Robot) -> dict[
         if name not in shapes:
             known = nearest(name, shapes)
             raise InputError(quantity.place, f"effect {effect.id} has no value {name!r}", known)
-    between = _unit_between(use, effect, joint, robot)
+    others = [use.values[shape.name].value for shape in effect.shapes if shape.joint and shape.name in use.values]
+    between = _unit_between(others, joint, robot)
     units = {name: (shape.unit_on(joint), between if shape.per_other else "") for name, shape in shapes.items()}
     return {name: _value(use, effect, shape, *units[name]) for name, shape in shapes.items()}
 
 
-def _unit_between(use: EffectUse, effect: Effect, joint: Joint, robot: Robot) -> str:
-    """The unit of the joint's motion per that of the other joint in ``values``; empty where they are of one kind."""
-    numbers = [use.values[shape.name].value for shape in effect.shapes if shape.joint and shape.name in use.values]
+def _unit_between(numbers: Collection[sympy.Expr], joint: Joint, robot: Robot) -> str:
+    """The unit of the joint's motion per that of the joint in ``numbers``; empty where they are of one kind."""
     kinds = {other.sigma for other in robot.moving if other.number in numbers}
     return ("rad/m", "m/rad")[joint.sigma == PRISMATIC] if kinds - {joint.sigma} else ""
+
+
+def unit_of(shape: Shape, instance: Instance, robot: Robot) -> str:
+    """The SI unit of a shape value of an effect on its joint; that of a ratio between two joints is by their kinds."""
+    given = instance.site.values
+    others = [given[one.name] for one in instance.effect.shapes if one.joint]
+    between = _unit_between(others, instance.joint, robot) if shape.per_other else ""
+    return between or shape.unit_on(instance.joint)
 
 
 def _value(use: EffectUse, effect: Effect, shape: Shape, unit: str, between: str = "") -> sympy.Expr:

@@ -1,12 +1,12 @@
-"""What the maps between motors and joints share: the matrix N in exact rationals (report eq. 14 to 18, 49)."""
+"""What the maps between motors and joints share: the exact matrix N (report eq. 14 to 18, 49)."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from fractions import Fraction
 
 import sympy
 
+from generator.constants import exact_constant
 from generator.quantities.quantity import Quantity
 from generator.symbolic.effect_torques import WARMTH
 from generator.symbolic.function import Signal
@@ -14,29 +14,29 @@ from generator.symbolic.model import Model
 from generator.symbolic.statements import Node
 from generator.symbolic.vectors import Array, array
 
-Rationals = list[list[Fraction]]
+Exact = list[list[sympy.Expr]]
 
 
-def coupling(model: Model) -> Rationals:
+def coupling(model: Model) -> Exact:
     """N: motor speeds = N joint speeds (report eq. 14, 15)."""
     assert model.robot.drives is not None
     return [list(row) for row in model.robot.drives.coupling]
 
 
-def inverse(matrix: Rationals) -> Rationals:
+def inverse(matrix: Exact) -> Exact:
     """The exact inverse."""
-    rational = sympy.Matrix([[sympy.Rational(x.numerator, x.denominator) for x in row] for row in matrix]).inv()
-    return [[Fraction(int(x.p), int(x.q)) for x in row] for row in rational.tolist()]
+    inverted: Exact = sympy.Matrix(matrix).inv().expand().tolist()
+    return inverted
 
 
-def transpose(matrix: Rationals) -> Rationals:
+def transpose(matrix: Exact) -> Exact:
     """The transpose: that of N takes motor torques to joint torques (report eq. 17)."""
     return [list(column) for column in zip(*matrix, strict=True)]
 
 
-def apply(model: Model, matrix: Rationals, vector: Array) -> Array:
+def apply(model: Model, matrix: Exact, vector: Array) -> Array:
     """The product of an exact matrix and a vector of nodes."""
-    return array(model.program, matrix) @ vector
+    return array(model.program, [[exact_constant(entry) for entry in row] for row in matrix]) @ vector
 
 
 def torque_constants(model: Model) -> list[Node]:

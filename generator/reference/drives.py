@@ -11,7 +11,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from generator.reference.arithmetic import Array, decimals, solve
+from generator.reference.arithmetic import Array, decimals, exact, solve
 from generator.robot.description import Drives, Robot
 
 
@@ -61,7 +61,7 @@ def drive_train(robot: Robot, values: Mapping[str, float], warmth: Array) -> Dri
     """
     if robot.drives is None:
         raise ValueError("the robot has no drives")
-    N = decimals([[_quotient(entry) for entry in row] for row in robot.drives.coupling])
+    N = decimals([[exact(entry) for entry in row] for row in robot.drives.coupling])
     nominal = _nominal(robot.drives)
     if nominal is None:
         return DriveTrain(N, None)

@@ -6,8 +6,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from decimal import Decimal
 
-import numpy as np
-
 from generator.discovery import modules
 from generator.reference import laws
 from generator.reference.arithmetic import Array, decimals, exact, sign, zeros
@@ -121,8 +119,7 @@ def acting(robot: Robot) -> Iterator[Acting]:
 def _of_motor(robot: Robot, k: int) -> tuple[Array, Decimal]:
     """The motor's row of N over its own ratio, and that ratio."""
     assert robot.drives is not None
-    row = decimals([n.numerator for n in robot.drives.coupling[k]])
-    row = row / np.array([Decimal(n.denominator) for n in robot.drives.coupling[k]], dtype=object)
+    row = decimals([exact(entry) for entry in robot.drives.coupling[k]])
     return row / row[k], row[k]
 
 

@@ -100,8 +100,7 @@ def positions(robot: Robot, seed: int) -> list[float]:
 
 def _position(joint: Joint, draw: Random) -> float:
     reach = 1.0 if joint.sigma == PRISMATIC else 3.1
-    lower = -reach if joint.lower is None else float(joint.lower)
-    upper = reach if joint.upper is None else float(joint.upper)
+    lower, upper = joint.limits or (-reach, reach)
     nearest, way = min(max(0.0, lower), upper), _FARTHEST[joint.sigma]
     lower, upper = max(lower, nearest - way), min(upper, nearest + way)
     return round(lower + (upper - lower) * draw.uniform(0.02, 0.98), 3)
@@ -109,9 +108,8 @@ def _position(joint: Joint, draw: Random) -> float:
 
 def _shifted(robot: Robot, q: Sequence[float], by: float) -> list[float]:
     """All positions moved ``by`` as much, as far as the limits let them."""
-    lower = (-np.inf if joint.lower is None else float(joint.lower) for joint in robot.moving)
-    upper = (np.inf if joint.upper is None else float(joint.upper) for joint in robot.moving)
-    return [min(max(x + by, least), most) for x, least, most in zip(q, lower, upper, strict=True)]
+    limits = [joint.limits or (-np.inf, np.inf) for joint in robot.moving]
+    return [min(max(x + by, lower), upper) for x, (lower, upper) in zip(q, limits, strict=True)]
 
 
 def signal(size: int, seed: int, scale: float = 1.0) -> list[float]:

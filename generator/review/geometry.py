@@ -37,10 +37,22 @@ def rows(robot: Robot) -> list[Row]:
 
 
 def limits(joint: Joint) -> str:
-    """The range of a joint in degrees or metres, "none" where the file gives none."""
-    if joint.lower is None or joint.upper is None:
-        return "none"
-    return f"{_end(joint.lower, joint)} to {_end(joint.upper, joint)} {'m' if joint.sigma == PRISMATIC else 'deg'}"
+    """The range of a joint in degrees or metres, then its limits of speed, acceleration and torque [SI]; "none" where
+    the file gives none.
+    """
+    told = []
+    if joint.lower is not None and joint.upper is not None:
+        unit = "m" if joint.sigma == PRISMATIC else "deg"
+        told.append(f"{_end(joint.lower, joint)} to {_end(joint.upper, joint)} {unit}")
+    either_way = {
+        f"{joint.position_unit}/s": joint.speed_limit,
+        f"{joint.position_unit}/s2": joint.acceleration_limit,
+        joint.torque_unit: joint.torque_limit,
+    }
+    sizes = [f"{decimal(exact_constant(size))} {unit}" for unit, size in either_way.items() if size is not None]
+    if sizes:
+        told.append(f"{', '.join(sizes)} either way")
+    return "; ".join(told) or "none"
 
 
 def length_value(length: Length) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sympy
 
 from generator.constants import exact_constant
-from generator.effects.library import Instance
+from generator.effects.library import Instance, unit_of
 from generator.review.decimals import MACHINE, decimal, rounded, scientific
 from generator.robot.description import Drives, Robot
 from generator.robot.parameters import Parameter
@@ -34,7 +34,7 @@ def effects(model: Model) -> Table:
     joints: dict[tuple[str, str], list[int]] = {}
     shaped = [one for one in model.motor_effects if one.site.values != {s.name: s.default for s in one.effect.shapes}]
     for instance in (*model.effects, *shaped):
-        joints.setdefault((instance.effect.id, values(instance)), []).append(instance.joint.number)
+        joints.setdefault((instance.effect.id, values(instance, model.robot)), []).append(instance.joint.number)
     rows = tuple((effect, ", ".join(ranges(sorted(set(numbers)))), told) for (effect, told), numbers in joints.items())
     return (("effect", "joints", "values"), *rows) if rows else ()
 
@@ -44,12 +44,12 @@ def elastic(model: Model) -> str:
     return numbered("joint", [model.robot.moving[k].number for k in model.elastic]) if model.elastic else ""
 
 
-def values(instance: Instance) -> str:
+def values(instance: Instance, robot: Robot) -> str:
     """``d21 = 0.9669 m, exponent = 1``: the shape values of an effect on a joint; "none" where it has none."""
     given = instance.site.values
     return (
         ", ".join(
-            f"{shape.name} = {quantity(given[shape.name], shape.unit_on(instance.joint))}"
+            f"{shape.name} = {quantity(given[shape.name], unit_of(shape, instance, robot))}"
             for shape in instance.effect.shapes
         )
         or "none"

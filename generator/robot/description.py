@@ -73,6 +73,11 @@ class Joint:
         return sympy.Symbol(f"q{self.number}", real=True)
 
     @property
+    def limits(self) -> tuple[float, float] | None:
+        """The lower and the upper limit of its variable [rad, m], of which no file gives one alone; None without."""
+        return None if self.lower is None or self.upper is None else (float(self.lower), float(self.upper))
+
+    @property
     def position_unit(self) -> str:
         """Of its variable; speeds and accelerations are by s and s2."""
         return "m" if self.sigma == PRISMATIC else "rad"
@@ -119,15 +124,15 @@ class EffectUse:
 
 @dataclass(frozen=True)
 class Drives:
-    """Drive train: motor speed = N joint speed (report eq. 14-15), in exact rationals.
+    """Drive train: motor speed = N joint speed (report eq. 14-15), exact: rationals, with pi where a slide is driven.
 
     ``coupling`` is the matrix N, row i the motor i, column j the moving joint j. ``torque_constants`` [N m/A] by name
     ("cold", "warm"), one per motor; ``torque_constant`` names the one in use. ``torque_drift`` is the relative change
     of each constant at warmth 1, empty where there is none.
     """
 
-    ratios: tuple[Fraction, ...]
-    coupling: tuple[tuple[Fraction, ...], ...]
+    ratios: tuple[sympy.Expr, ...]
+    coupling: tuple[tuple[sympy.Expr, ...], ...]
     torque_constants: Mapping[str, tuple[Fraction, ...]] = field(default_factory=dict)
     torque_constant: str = ""
     torque_drift: tuple[Fraction, ...] = ()

@@ -66,12 +66,10 @@ def _coarse(values: Array) -> Array:
 
 def _candidates(joint: Joint, arm: Skeleton) -> Array:
     if joint.sigma == PRISMATIC:
-        lower = 0.0 if joint.lower is None else float(joint.lower)
-        upper = lower + 1.5 * arm.size if joint.upper is None else float(joint.upper)
+        lower, upper = joint.limits or (0.0, 1.5 * arm.size)
         return np.array([lower + 0.6 * (upper - lower)])
-    lowest, highest = (None if end is None else float(end) for end in (joint.lower, joint.upper))
-    lower = -_TURN if lowest is None else max(lowest, -_TURN)
-    upper = _TURN if highest is None else min(highest, _TURN)
+    lowest, highest = joint.limits or (-_TURN, _TURN)
+    lower, upper = max(lowest, -_TURN), min(highest, _TURN)
     if lower > upper:
         return np.array([lower if lower > 0 else upper])
     first, last = int(np.ceil(lower / _STEP - 1e-9)), int(np.floor(upper / _STEP + 1e-9))

@@ -13,7 +13,7 @@ from generator.quantities.balancer import observed
 from generator.review.laws import observables
 from generator.review.markup import Markup, element, join
 from generator.review.plot import Curve, Marker, plot
-from generator.robot.description import PRISMATIC, Joint
+from generator.robot.description import PRISMATIC
 from generator.symbolic.function import Function, Output
 from generator.symbolic.interpret import evaluate
 from generator.symbolic.model import Model
@@ -38,7 +38,7 @@ def render(model: Model) -> Markup | None:
 
 def _balancer(model: Model, function: Function, instance: Instance, outputs: Sequence[Output]) -> Markup:
     joint = instance.joint
-    lower, upper = _range(joint)
+    lower, upper = joint.limits or (-mathematics.pi, mathematics.pi)
     positions = np.linspace(lower, upper, _SAMPLES)
     q = np.zeros((_SAMPLES, model.dof))
     q[:, [other.number for other in model.robot.moving].index(joint.number)] = positions
@@ -65,13 +65,6 @@ def _balancer(model: Model, function: Function, instance: Instance, outputs: Seq
         element("p", f"The {instance.effect.title} on joint {joint.number}, over its range."),
         element("div", plots, class_="plots"),
         element("p", keys, class_="legend"),
-    )
-
-
-def _range(joint: Joint) -> tuple[float, float]:
-    return (
-        -mathematics.pi if joint.lower is None else float(joint.lower),
-        mathematics.pi if joint.upper is None else float(joint.upper),
     )
 
 

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+import sympy
+
+from generator.constants import exact_constant
 from generator.review.decimals import decimal, rounded
-from generator.review.formula import Call, Equation, Formula, Name, Negative, Number, Power, Product, Quotient
+from generator.review.formula import Call, Equation, Formula, Name, Negative, Number, Power, Product, Quotient, formula
 from generator.review.markup import Content, Markup, element, join, table
 from generator.review.mathml import math, mathml, matrix
 from generator.review.stated import torque_constant_heads
@@ -38,7 +41,7 @@ def render(model: Model) -> Markup | None:
         else None,
         element("h3", "Coupling matrix"),
         _coupling("=", [[exact(entry) for entry in row] for row in drives.coupling]),
-        _coupling("≈", [[_rounded(entry) for entry in row] for row in drives.coupling]),
+        _coupling("≈", [[_rounded(exact_constant(entry)) for entry in row] for row in drives.coupling]),
     )
 
 
@@ -55,18 +58,21 @@ def _table(model: Model, drives: Drives) -> Markup:
     for k, joint in enumerate(model.robot.moving):
         ratio = drives.ratios[k]
         in_unit = "" if joint.ratio_unit == "1" else f"\u00a0{joint.ratio_unit}"
-        row: list[Content] = [str(joint.number), [math(exact(ratio)), in_unit], _shown(ratio, 6) + in_unit]
+        size = exact_constant(ratio)
+        row: list[Content] = [str(joint.number), [math(exact(ratio)), in_unit], _shown(size, 6) + in_unit]
         row += [_shown(constants[k], 6) for constants in drives.torque_constants.values()]
         if drives.torque_constants:
-            gain = _shown(ratio * drives.torque_constants[drives.torque_constant][k], 6)
+            gain = _shown(size * drives.torque_constants[drives.torque_constant][k], 6)
             row.append(f"{gain}\u00a0{unit(joint.gain_unit)}")
         rows.append(row)
     return table(heads, rows, class_="numbers")
 
 
-def exact(value: Fraction) -> Formula:
-    """A rational number as a fraction."""
-    size = abs(value)
+def exact(value: sympy.Expr) -> Formula:
+    """A rational number as a fraction, any other as it is."""
+    if not value.is_Rational:
+        return formula(value)
+    size = abs(exact_constant(value))
     body: Formula = Number(size)
     if size.denominator != 1:
         body = Quotient(Number(Fraction(size.numerator)), Number(Fraction(size.denominator)))

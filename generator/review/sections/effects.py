@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from generator.effects.library import Instance
+from generator.effects.library import Instance, unit_of
 from generator.review.formula import Name
 from generator.review.laws import alike, indexed, observables, rates, torque
 from generator.review.markup import Content, Markup, element, join, table
 from generator.review.mathml import math
 from generator.review.stated import quantity
+from generator.robot.description import Robot
 from generator.symbolic.model import Model
 from generator.words import bounds, minus, numbered, unit
 
@@ -21,10 +22,10 @@ def render(model: Model) -> Markup | None:
     if not model.effects:
         return None
     intro = element("p", "Each adds its torque to that of the rigid bodies, on the side of the inverse dynamic model.")
-    return join(intro, element("div", [_effect(instances) for instances in alike(model.effects)], class_="effects"))
+    return join(intro, element("div", [_effect(one, model.robot) for one in alike(model.effects)], class_="effects"))
 
 
-def _effect(instances: list[Instance]) -> Markup:
+def _effect(instances: list[Instance], robot: Robot) -> Markup:
     first, effect = instances[0], instances[0].effect
     index = str(first.joint.number) if len(instances) == 1 else "j"
     told = observables(first)
@@ -41,7 +42,7 @@ def _effect(instances: list[Instance]) -> Markup:
         ),
         [element("p", math(equation, display=True), class_="law") for equation in equations],
         element("p", [_parameter(instances, k, index) for k in range(len(effect.parameters))], class_="meanings"),
-        [_values(instance) for instance in instances if instance.site.values],
+        [_values(instance, robot) for instance in instances if instance.site.values],
         element("p", "Sign: ", effect.sign_convention, "."),
         element("p", "Assumed: ", effect.assumptions, ".") if effect.assumptions else None,
         element("p", effect.source, class_="source"),
@@ -64,12 +65,12 @@ def _parameter(instances: Sequence[Instance], k: int, index: str) -> list[Conten
     return [math(name), f" {parameter.meaning} [{'; '.join(units)}]{f', {within}' if within else ''}. "]
 
 
-def _values(instance: Instance) -> Markup:
+def _values(instance: Instance, robot: Robot) -> Markup:
     values = instance.site.values
     rows = [
         (
             math(Name(shape.name)),
-            unit(minus(quantity(values[shape.name], shape.unit_on(instance.joint)))),
+            unit(minus(quantity(values[shape.name], unit_of(shape, instance, robot)))),
             shape.meaning,
         )
         for shape in instance.effect.shapes

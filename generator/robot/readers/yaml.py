@@ -26,23 +26,30 @@ _MAX_DEPTH = 16
 _MAX_NODES = 20_000
 _MAX_WORD = 4096
 
+#: Unicode's space separators, such as the no-break space of web pages and word processors: YAML takes them for letters.
+_SPACES = "\u00a0\u1680\u202f\u205f\u3000" + "".join(map(chr, range(0x2000, 0x200B)))
+_BLANKS = str.maketrans(_SPACES, " " * len(_SPACES))
+#: A character without width where a word begins.
+_UNSEEN = re.compile(r"(?:^|[-:]) *([\u00ad\u200b-\u200f\u2060-\u2064\ufeff])")
+
 _OVERLONG = re.compile(rf"[^\s\[\]{{}},]{{{_MAX_WORD + 1}}}")
 
 
 def read(text: str, file: str, of: str = "a robot file") -> Node:
     """The tree that ``text`` says; ``file`` is its name in messages, ``of`` what it should be.
 
-    Raises InputError, at its line and column, for anything but one YAML document of plain tables, lists and scalars
-    with no key given twice.
+    Any space of Unicode is a blank. Raises InputError, at its line and column, for anything but one YAML document of
+    plain tables, lists and scalars with no key given twice.
     """
     expected = f"{of} in YAML"
     _check_size(text, file, expected)
     try:
-        return _Builder(file, text, of).document()
+        return _Builder(file, text.translate(_BLANKS), of).document()
     except MarkedYAMLError as error:
         unclosed = "end of stream" in (error.problem or "")
         mark = (error.context_mark if unclosed else None) or error.problem_mark or error.context_mark
         place = Place(file, mark.line + 1, mark.column + 1) if mark else Place(file)
+        _check_unseen(text, place)
         raise InputError(place, f"not YAML: {_one_line(error.problem or error.context)}", expected) from None
     except ReaderError as error:
         line = text.count("\n", 0, error.position) + 1
@@ -50,6 +57,22 @@ def read(text: str, file: str, of: str = "a robot file") -> Node:
         raise InputError(Place(file, line, column), f"not YAML: character {error.character!r}", expected) from None
     except (YAMLError, ValueError) as error:
         raise InputError(Place(file), f"not YAML: {_one_line(str(error))}", expected) from None
+
+
+def composed(text: str) -> Any:
+    """The root of ruamel's nodes, whose marks are places in ``text``; for a text that ``read`` takes."""
+    return YAML(typ="safe", pure=True).compose(text.translate(_BLANKS))
+
+
+def _check_unseen(text: str, place: Place) -> None:
+    """That no character without width keeps what stands on the line of ``place``, or on the one before, from being
+    YAML.
+    """
+    lines = text.split("\n")
+    for line in range(max(place.line - 1, 1), place.line + 1):
+        if match := _UNSEEN.search(lines[line - 1]):
+            problem = f"not YAML: U+{ord(match[1]):04X}, a character without width"
+            raise InputError(Place(place.file, line, match.start(1) + 1), problem, "a blank, or nothing")
 
 
 def _check_size(text: str, file: str, expected: str) -> None:

@@ -10,12 +10,12 @@ import sympy
 
 from generator.errors import InputError
 from generator.robot import fields
-from generator.robot.description import FIXED, Drives, Joint
+from generator.robot.description import FIXED, PRISMATIC, Drives, Joint
 from generator.robot.document import Entry, Node, Text
 from generator.robot.names import identifier
 from generator.units import parse_unit
 
-Matrix = tuple[tuple[Fraction, ...], ...]
+Matrix = tuple[tuple[sympy.Expr, ...], ...]
 
 _ELEMENT = re.compile(r"N(?:([1-9])([1-9])|([1-9]\d*)_([1-9]\d*))\Z", re.ASCII)
 _CONVENTIONS = ("row", "as_printed", "direct")
@@ -24,16 +24,17 @@ _CONVENTIONS = ("row", "as_printed", "direct")
 def drives(entry: Entry | None, joints: Sequence[Joint]) -> Drives | None:
     """The drive train, exact; None where the file has none.
 
-    Raises InputError for a ratio that is zero or not rational, a list that does not have one value per moving joint, a
-    coupling element that is not below the diagonal, a torque constant that is not positive, a drift that is not within
-    -1 and 1, a size that no drive has (``fields.check_size``).
+    Raises InputError for a ratio that is zero, a number of turning joints that is not rational, a list that does not
+    have one value per moving joint, a coupling element that is not below the diagonal, a torque constant that is not
+    positive, a drift that is not within -1 and 1, a size that no drive has (``fields.check_size``).
     """
     if entry is None:
         return None
     keys = fields.table(entry.value, "drives", ("gear_ratios",), ("coupling", "torque_constants", "torque_drift"))
-    moving = [joint.number for joint in joints if joint.sigma != FIXED]
-    ratios = _ratios(keys["gear_ratios"].value, moving)
-    coupling = _coupling(keys.get("coupling"), ratios, moving)
+    driven = [joint for joint in joints if joint.sigma != FIXED]
+    moving = [joint.number for joint in driven]
+    ratios = _ratios(keys["gear_ratios"].value, driven)
+    coupling = _coupling(keys.get("coupling"), ratios, driven)
     constants, in_use = _torque_constants(keys.get("torque_constants"), moving)
     return Drives(ratios, coupling, constants, in_use, _torque_drift(keys.get("torque_drift"), constants, moving))
 
@@ -54,17 +55,18 @@ def _torque_drift(entry: Entry | None, constants: object, moving: Sequence[int])
     return tuple(drift)
 
 
-def _ratios(node: Node, moving: Sequence[int]) -> tuple[Fraction, ...]:
+def _ratios(node: Node, driven: Sequence[Joint]) -> tuple[sympy.Expr, ...]:
     ratios = []
-    for number, item in zip(moving, fields.items(node, "gear_ratios", len(moving), "gear ratios"), strict=True):
-        ratio = _sized(item, f"gear ratio of joint {number}")
+    for joint, item in zip(driven, fields.items(node, "gear_ratios", len(driven), "gear ratios"), strict=True):
+        what = f"gear ratio of joint {joint.number}"
+        ratio = _ratio(item, what, (joint,))
         if ratio == 0:
-            raise InputError(item.place, f"gear ratio of joint {number} is zero", "a ratio other than zero")
+            raise InputError(item.place, f"{what} is zero", "a ratio other than zero")
         ratios.append(ratio)
     return tuple(ratios)
 
 
-def _coupling(entry: Entry | None, ratios: Sequence[Fraction], moving: Sequence[int]) -> Matrix:
+def _coupling(entry: Entry | None, ratios: Sequence[sympy.Expr], driven: Sequence[Joint]) -> Matrix:
     """The matrix N: motor speed = N joint speed.
 
     ``row``: N = diag(ratios) (I + L)^-1, L the given coefficients: the row's ratio multiplies, as gear teeth do.
@@ -72,7 +74,8 @@ def _coupling(entry: Entry | None, ratios: Sequence[Fraction], moving: Sequence[
     ``direct``: the given coefficients are the elements of N themselves.
     """
     n = len(ratios)
-    lower = [[Fraction(0)] * n for _ in range(n)]
+    moving = [joint.number for joint in driven]
+    lower: list[list[sympy.Expr]] = [[sympy.Integer(0)] * n for _ in range(n)]
     convention, seen = "row", set()
     for key, one in fields.named(entry.value, "coupling").items() if entry else ():
         if key == "convention":
@@ -82,13 +85,13 @@ def _coupling(entry: Entry | None, ratios: Sequence[Fraction], moving: Sequence[
         if (row, column) in seen:
             raise InputError(one.key, f"coupling coefficient {key} is given twice", "it once")
         seen.add((row, column))
-        lower[row][column] = _sized(one.value, key, any_small=True)
+        lower[row][column] = _ratio(one.value, key, (driven[row], driven[column]), any_small=True)
     if convention == "direct":
         return tuple(tuple(ratios[i] if i == k else lower[i][k] for k in range(n)) for i in range(n))
     inverse = _inverse_of_unit_lower(lower)
     if convention == "row":
-        return tuple(tuple(ratios[i] * inverse[i][k] for k in range(n)) for i in range(n))
-    return tuple(tuple(inverse[i][k] * ratios[k] for k in range(n)) for i in range(n))
+        return tuple(tuple(sympy.expand(ratios[i] * inverse[i][k]) for k in range(n)) for i in range(n))
+    return tuple(tuple(sympy.expand(inverse[i][k] * ratios[k]) for k in range(n)) for i in range(n))
 
 
 def element(name: str) -> tuple[int, int] | None:
@@ -117,13 +120,13 @@ def _element(key: Text, moving: Sequence[int]) -> tuple[int, int]:
     return moving.index(row), moving.index(column)
 
 
-def _inverse_of_unit_lower(lower: Sequence[Sequence[Fraction]]) -> list[list[Fraction]]:
+def _inverse_of_unit_lower(lower: Sequence[Sequence[sympy.Expr]]) -> list[list[sympy.Expr]]:
     """(I + L)^-1 by forward substitution, L strictly lower triangular."""
     n = len(lower)
-    inverse: list[list[Fraction]] = []
+    inverse: list[list[sympy.Expr]] = []
     for i in range(n):
-        unit = [Fraction(i == k) for k in range(n)]
-        inverse.append([unit[k] - sum((lower[i][m] * inverse[m][k] for m in range(i)), Fraction(0)) for k in range(n)])
+        unit = [sympy.Integer(int(i == k)) for k in range(n)]
+        inverse.append([unit[k] - sympy.Add(*(lower[i][m] * inverse[m][k] for m in range(i))) for k in range(n)])
     return inverse
 
 
@@ -158,14 +161,21 @@ def _constants(node: Node, key: str, factor: sympy.Expr, moving: Sequence[int]) 
     return tuple(constants)
 
 
-def _sized(node: Node, what: str, any_small: bool = False) -> Fraction:
-    value = _fraction(node, what)
+def _ratio(node: Node, what: str, between: Sequence[Joint], any_small: bool = False) -> sympy.Expr:
+    """A ratio of what moves with the joints ``between``: teeth make fractions, a spindle or a pinion makes pi."""
+    value = fields.number(node, what)
+    if all(joint.sigma != PRISMATIC for joint in between):
+        _check_fraction(node, what, value)
     fields.check_size(node.place, what, value, any_small)
     return value
 
 
 def _fraction(node: Node, what: str) -> Fraction:
     value = fields.number(node, what)
+    _check_fraction(node, what, value)
+    return Fraction(int(value.p), int(value.q))
+
+
+def _check_fraction(node: Node, what: str, value: sympy.Expr) -> None:
     if not value.is_Rational:
         raise InputError(node.place, f"{what} is not a fraction", "a fraction such as -5473/21")
-    return Fraction(int(value.p), int(value.q))

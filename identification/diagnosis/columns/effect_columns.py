@@ -144,7 +144,7 @@ def _step(rate: sympy.Expr, state: sympy.Symbol, speed: sympy.Symbol, values: Se
     return casadi.Function("step", [z, v, given], [z + h * f * phi, z])
 
 
-def _ratios(robot: Robot, k: int) -> dict[int, sympy.Rational]:
+def _ratios(robot: Robot, k: int) -> dict[int, sympy.Expr]:
     assert robot.drives is not None
     pairs = zip(robot.moving, robot.drives.coupling[k], strict=True)
-    return {other.number: sympy.Rational(n.numerator, n.denominator) for other, n in pairs if n}
+    return {other.number: ratio for other, ratio in pairs if ratio != 0}
