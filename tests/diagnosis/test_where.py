@@ -143,6 +143,8 @@ def finding(variable: str, joints: tuple[int, ...] = (2,)) -> Any:
 def test_a_finding_leads_unless_another_variable_orders_far_more(variable: str, told: str) -> None:
     found = led(located(seen(BY_CHANCE, SIGNIFICANT), [SIGNIFICANT]), finding(variable), seen(BY_CHANCE, SIGNIFICANT))
     assert (found.joint, found.variable) == (2, told)
+    # Of time the means order next to nothing, of a frequency there are none.
+    assert bool(found.region) == (told in ("q", "qd"))
 
 
 def test_what_follows_two_joints_leads_by_its_own_variable() -> None:

@@ -102,11 +102,12 @@ def _any_torque(one: Finding, remains: float, several: Collection[int]) -> list[
     effect = one.hypothesis.effect
     if not pulls(effect):
         return []
-    loose = any(vague(value, _LOOSE) for value in one.main) or (balances(effect) and not one.determined)
+    undetermined = balances(effect) and not one.determined
     reasons = {
         _MUCH: _much(one, remains),
         "another torque of the position was found on its joint": not set(one.joints).isdisjoint(several),
-        "the runs do not determine its values to a fifth": loose,
+        "the runs do not determine its values to a fifth": any(vague(value, _LOOSE) for value in one.main),
+        "the runs tell its torque, which other values of its shape make as well": undetermined,
         "its hardening makes more torque than its stiffness": one.refined > _BENT,
         _SMALL: one.evidence.size < _FAINT,
     }
