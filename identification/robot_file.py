@@ -126,7 +126,7 @@ def _before_comments(text: str, end: int, column: int) -> int:
     """
     while end:
         start = text.rfind("\n", 0, end - 1) + 1
-        content = text[start:end].lstrip(" ")
+        content = text[start:end].lstrip(yaml.BLANKS)
         if content.strip() and not (content.startswith("#") and end - start - len(content) <= column):
             break
         end = start
@@ -135,7 +135,8 @@ def _before_comments(text: str, end: int, column: int) -> int:
 
 def _after_comments(text: str, start: int, end: int, column: int) -> int:
     """Where the blank lines and the comments further in than ``column`` end that stand from ``start`` on."""
-    found = re.match(rf"(?: {{{column + 1},}}#[^\n]*\n| *\n)*", text[start:end])
+    blank = f"[{yaml.BLANKS}]"
+    found = re.match(rf"(?:{blank}{{{column + 1},}}#[^\n]*\n|{blank}*\n)*", text[start:end])
     return start + (found.end() if found else 0)
 
 

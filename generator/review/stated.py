@@ -67,7 +67,7 @@ def drives(robot: Robot) -> Table:
     rows = []
     for k, joint in enumerate(robot.moving):
         ratio = _with_unit(str(stated.ratios[k]), joint.ratio_unit)
-        row = [str(joint.number), ratio, " ".join(map(str, stated.coupling[k]))]
+        row = [str(joint.number), ratio, ", ".join(map(str, stated.coupling[k]))]
         row += [decimal(constants[k]) for constants in stated.torque_constants.values()]
         row += [rounded(stated.torque_drift[k])] if stated.torque_drift else []
         rows.append(tuple(row))

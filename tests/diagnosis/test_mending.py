@@ -129,5 +129,5 @@ def test_the_model_without_what_was_found_is_told_near_the_prior_and_free(monkey
     assert near < said.index("stay near the prior") < free < said.index("may move them far") < new
     assert "make up for" not in said
     (said,) = _gain([3.02], *played[1:], "untouched runs")
-    assert said.endswith("parameters that leave the prior's values make up for what was found")
+    assert said.endswith("parameters make up for what was found without going far from the prior")
     assert not [*_gain([], [], [], "untouched runs")]

@@ -8,7 +8,7 @@ from generator.review.markup import Content, Markup, element, join, table
 from generator.review.mathml import math
 from generator.robot.description import FIXED, PRISMATIC, REVOLUTE
 from generator.symbolic.model import Model
-from generator.words import minus
+from generator.words import minus, unit
 
 TITLE = "Geometry"
 ORDER = 30
@@ -28,7 +28,7 @@ def render(model: Model) -> Markup:
                 row.joint.sigma, " ", element("small", _KINDS[row.joint.sigma] + (", tool" if row.joint.tool else ""))
             ),
             *(math(cell) for _, cell in row.cells),
-            minus(limits(row.joint)),
+            unit(minus(limits(row.joint))),
         ]
         for row in listed
     ]

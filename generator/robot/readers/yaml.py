@@ -29,6 +29,8 @@ _MAX_WORD = 4096
 #: Unicode's space separators, such as the no-break space of web pages and word processors: YAML takes them for letters.
 _SPACES = "\u00a0\u1680\u202f\u205f\u3000" + "".join(map(chr, range(0x2000, 0x200B)))
 _BLANKS = str.maketrans(_SPACES, " " * len(_SPACES))
+#: All that is a blank.
+BLANKS = " " + _SPACES
 #: A character without width where a word begins.
 _UNSEEN = re.compile(r"(?:^|[-:]) *([\u00ad\u200b-\u200f\u2060-\u2064\ufeff])")
 
@@ -49,7 +51,7 @@ def read(text: str, file: str, of: str = "a robot file") -> Node:
         unclosed = "end of stream" in (error.problem or "")
         mark = (error.context_mark if unclosed else None) or error.problem_mark or error.context_mark
         place = Place(file, mark.line + 1, mark.column + 1) if mark else Place(file)
-        _check_unseen(text, place)
+        _check_unseen(text.translate(_BLANKS), place)
         raise InputError(place, f"not YAML: {_one_line(error.problem or error.context)}", expected) from None
     except ReaderError as error:
         line = text.count("\n", 0, error.position) + 1
@@ -65,12 +67,12 @@ def composed(text: str) -> Any:
 
 
 def _check_unseen(text: str, place: Place) -> None:
-    """That no character without width keeps what stands on the line of ``place``, or on the one before, from being
-    YAML.
+    """That no character without width, outside a comment, keeps what stands on the line of ``place``, or on the one
+    before, from being YAML.
     """
     lines = text.split("\n")
-    for line in range(max(place.line - 1, 1), place.line + 1):
-        if match := _UNSEEN.search(lines[line - 1]):
+    for line in range(place.line, max(place.line - 2, 0), -1):
+        if match := _UNSEEN.search(lines[line - 1].partition("#")[0]):
             problem = f"not YAML: U+{ord(match[1]):04X}, a character without width"
             raise InputError(Place(place.file, line, match.start(1) + 1), problem, "a blank, or nothing")
 

@@ -28,7 +28,8 @@ from identification.sampling import Sampled
 #: Folder of the regenerated code, beside the new robot file.
 GENERATED = "generated"
 _FITTED = "nothing was added to the model: before and after differ by the fit of its parameters near the prior alone"
-#: What a model without the findings leaves, in parts of what the new one does, up to which it hides what they are.
+#: What a model without the findings leaves, in parts of what the new one does, up to which its parameters make up for
+#: them.
 _HIDDEN = 1.05
 _TWO_SETS = f"the set {SET} is the rigid model's, {FLEXIBLE} that of the model with elastic drive trains"
 
@@ -148,7 +149,7 @@ def _gain(near: Sequence[Played], free: Sequence[Played], after: Sequence[Played
     held, away, new = (together(one).total for one in (near, free, after))
     if held.rows and new.rows:
         hidden = held.relative_to_mean <= _HIDDEN * new.relative_to_mean
-        moved = ": parameters that leave the prior's values make up for what was found" if hidden else ""
+        moved = ": parameters make up for what was found without going far from the prior" if hidden else ""
         yield (
             f"fitted to the same runs, the model without what was found leaves {held.relative_to_mean:.3g} % of the "
             f"{runs} if its parameters stay near the prior, {away.relative_to_mean:.3g} % if the runs may move them "

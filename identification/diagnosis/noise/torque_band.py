@@ -66,8 +66,8 @@ def notes(scenes: Sequence[Scene]) -> list[str]:
         return []
     return [
         f"from about {frequency:.0f} Hz on the recorded torques are far less than the recorded positions ask for: "
-        "torques were filtered, positions are coarse, or one link that swings moves all joints; elasticity and backlash "
-        "of drive trains are not looked for"
+        "torques were filtered, positions are coarse, or one link that swings moves all joints; elasticity and "
+        "backlash of drive trains are not looked for"
     ]
 
 

@@ -86,10 +86,10 @@ def views(
     runs: Sequence[Prepared], scenes: Sequence[Scene], residuals: Sequence[Array], k: int, noise: Sequence[Colour]
 ) -> tuple[View, ...]:
     """All views of coordinate k's residuals, one (N rows) and a colour of noise a run; the strongest variable first."""
+    if not _enough(runs, k):
+        return ()
     kept = [run.kept[k] for run in runs]
     seen = _seen(runs, scenes, residuals, k, noise)
-    if len(seen.e) < FEW_ROWS * BINS:
-        return ()
     every = [variables(run, scene, k) for run, scene in zip(runs, scenes, strict=True)]
     usual = rms(joined(runs, [run.tau for run in runs], k))
     found: list[View] = []
@@ -107,16 +107,22 @@ def shares_of_others(
     runs: Sequence[Prepared], scenes: Sequence[Scene], residuals: Sequence[Array], k: int, noise: Sequence[Colour]
 ) -> dict[str, float]:
     """The part of the variance of coordinate k's residuals, given as to ``views``, that the place and the speed of each
-    other joint order, by what they are in words.
+    other joint that moves order, by what they are in words.
     """
+    if not _enough(runs, k):
+        return {}
     seen, result = _seen(runs, scenes, residuals, k, noise), {}
     motions = [run.decimated(np.stack([s.motion.q, s.motion.qd])) for run, s in zip(runs, scenes, strict=True)]
     both = np.concatenate([each[..., run.kept[k]] for each, run in zip(motions, runs, strict=True)], axis=-1)
     for i, joint in enumerate(scenes[0].robot.moving):
-        for what, x in zip(("place", "speed"), both[:, i], strict=True):
-            if i != k and len(x) >= FEW_ROWS * BINS and np.ptp(x) > _CONSTANT * float(np.abs(x).max()):
+        if i != k and any(scene.moves(i) for scene in scenes):
+            for what, x in zip(("place", "speed"), both[:, i], strict=True):
                 result[f"the {what} of joint {joint.number}"] = _view(seen, what, "", x, (0,))[0].share
     return result
+
+
+def _enough(runs: Sequence[Prepared], k: int) -> bool:
+    return sum(int(run.kept[k].sum()) for run in runs) >= FEW_ROWS * BINS
 
 
 def _seen(
