@@ -126,8 +126,8 @@ def led(before: Where, first: Finding, after: Where) -> Where:
     if not coupling and of_shown.get(variable, np.inf) < _LEADS * max(of_shown.values(), default=0.0):
         variable = ordering
     region = f"of {numbered('joint', first.joints)} together" if coupling else ""
-    # Of what means over it hardly order no bin tells where it is.
-    if not coupling and shares.get(variable, 0.0) >= _ORDERED:
+    # Of what means over it hardly order, or do not show, no bin tells where it is.
+    if not coupling and variable in _SHOWN and shares.get(variable, 0.0) >= _ORDERED:
         region = _region(mine, variable)
     happens = [one.joint for one in after.lack if one.burst is not None]
     lack = [one if one.joint != joint or joint in happens else replace(one, burst=None) for one in before.lack]
