@@ -56,7 +56,7 @@ def test_the_gas_balancer_and_the_drives_of_the_report() -> None:
     values = "d21 = 0.9669 m, d22 = 0.2062 m, phi = -1.6293 rad, l0 = 0.5 m, exponent = 1"
     assert table(text, "Effects")[-1] == ["gas_balancer", "2", values]
     assert table(text, "Effects")[0] == ["rotor_inertia", "1 to 6", "none"]
-    assert table(text, "Drives")[4] == ["5", "-44096/175", "0 0 0 -53/50 -44096/175 0", "1.14", "1.166"]
+    assert table(text, "Drives")[4] == ["5", "-44096/175", "0, 0, 0, -53/50, -44096/175, 0", "1.14", "1.166"]
     assert "Free fall is 0, 0, -9.81 m/s2 in the world frame, which is frame 0." in text
     assert "Elastic drive trains: joints 1 to 6." in text
 
