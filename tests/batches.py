@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from tests.bound import Bound, preprocessed
-from tests.compiled import run
+from tests.compiled import SHARED, run
 
 #: Numbers before and behind each array, and what they hold.
 _GUARD, _MARK = 37, 12345.0
@@ -47,9 +47,9 @@ class Batch:
         key = hashlib.sha256(repr((compiler, *flags)).encode()).hexdigest()[:12]
         library = folder / f"lib{name}{key}.so"
         sources = [folder / "c" / f"{name}.c", folder / "batch" / f"{name}_batch.c"]
-        include, shared = f"-I{folder / 'c'}", ("-shared", "-fPIC")
+        include = f"-I{folder / 'c'}"
         if not library.exists():
-            run([compiler, "-std=c99", *_WARNINGS, *shared, *flags, include, *sources, "-o", library, "-lm"])
+            run([compiler, "-std=c99", *_WARNINGS, *SHARED, *flags, include, *sources, "-o", library, "-lm"])
         header = folder / "batch" / f"{name}_batch.h"
         self._c = Bound(name, library, header, [*flags, include])
         self._prepared = self._c.new("prepared *")

@@ -8,6 +8,10 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+#: Of libraries that the tests load: without start files, which after -ffast-math and -funsafe-math-optimizations round
+#: small numbers of the whole process to zero.
+SHARED = ("-shared", "-fPIC", "-nostartfiles")
+
 
 def write(folder: Path, files: Mapping[str, str | bytes]) -> Path:
     """Writes what a backend emitted; returns ``folder``."""

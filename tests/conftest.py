@@ -20,8 +20,10 @@ from tests.chains import every_effect, random_robot
 from tests.commands import PENDULUM
 from tests.diagnosis.diagnosed import Known, known
 from tests.elastic_links import robot_text
+from tests.libraries import built_once
 from tests.plant.robots import ROBOTS
 from tests.recorded import TRUTH, Recorded, recorded, two_links
+from tests.simulated import Make, maker
 from tests.subject import Subject, subject
 
 
@@ -40,8 +42,12 @@ pytest.register_assert_rewrite("tests.core_quantities", "tests.regressor_rank")
 
 FILES = {path.stem: path for path in robots()}
 EVERY = "every_effect"
-#: A robot with the structure of another, whose code is compiled by make test-long alone.
-FURTHER = "kr270_table5"
+#: Further arms of turning joints alone beside the KR500, which make test-long alone derives and compiles.
+FURTHER = (
+    *("kr270", "kr270_calibrated", "kr270_table5", "kr300", "kr500_table5"),
+    *("lbr_iiwa14", "puma560", "tx40"),
+)
+ALL = [*(pytest.param(name, marks=pytest.mark.long) if name in FURTHER else name for name in FILES), EVERY]
 CHAINS = {f"chain{seed}": seed for seed in range(6)}
 
 # The suite must say the same twice; HYPOTHESIS_PROFILE=explore looks for new chains.
@@ -52,13 +58,9 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "steady"))
 
 
 @cache
-def _file(name: str) -> Subject:
-    return subject(read(FILES[name]))
-
-
-@cache
-def _every_effect() -> Subject:
-    return subject(every_effect())
+def derived(name: str) -> Subject:
+    """A robot file, or the robot with every effect, with all of its quantities."""
+    return subject(every_effect() if name == EVERY else read(FILES[name]))
 
 
 @cache
@@ -66,24 +68,29 @@ def _chain(name: str) -> Subject:
     return subject(random_robot(Random(CHAINS[name])))
 
 
-@pytest.fixture(scope="session", params=[*FILES, EVERY, *CHAINS])
+@pytest.fixture(scope="session", autouse=True)
+def _libraries(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Simulated robots that many tests share are compiled by one of them, whichever process it is of."""
+    own = tmp_path_factory.getbasetemp()
+    kept = (own.parent if "PYTEST_XDIST_WORKER" in os.environ else own) / "libraries"
+    kept.mkdir(exist_ok=True)
+    with pytest.MonkeyPatch.context() as patch:
+        for user in ("simulation.machine", "diagnosis.runs.played"):
+            patch.setattr(f"identification.{user}.build_library", built_once(kept))
+        yield
+
+
+@pytest.fixture(scope="session", params=[*ALL, *CHAINS])
 def arm(request: pytest.FixtureRequest) -> Subject:
     """Each robot file, the robot with every effect and each random chain, derived."""
     name = request.param
-    return _robot(name) if name in (*FILES, EVERY) else _chain(name)
+    return _chain(name) if name in CHAINS else derived(name)
 
 
-@pytest.fixture(
-    scope="session",
-    params=[pytest.param(name, marks=pytest.mark.long) if name == FURTHER else name for name in (*FILES, EVERY)],
-)
+@pytest.fixture(scope="session", params=ALL)
 def robot_arm(request: pytest.FixtureRequest) -> Subject:
     """Each robot file and the robot with every effect, derived."""
-    return _robot(request.param)
-
-
-def _robot(name: str) -> Subject:
-    return _every_effect() if name == EVERY else _file(name)
+    return derived(request.param)
 
 
 @pytest.fixture(scope="session")
@@ -125,6 +132,12 @@ def known_robots(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Kn
     """Simulated robots by name, each beside its model."""
     folder = tmp_path_factory.mktemp("known_robots")
     return cache(lambda name: known(ROBOTS[name], folder))
+
+
+@pytest.fixture(scope="session")
+def make(tmp_path_factory: pytest.TempPathFactory) -> Make:
+    """Compiles simulations of subjects."""
+    return maker(tmp_path_factory.mktemp("simulations"))
 
 
 @pytest.fixture(scope="session")

@@ -11,8 +11,6 @@ from math import cos, exp, log, sin, sqrt, tan, tanh
 import numpy as np
 
 from generator.backends import review
-from generator.derivation import derive
-from generator.resources import find_robot
 from generator.review.formula import (
     Call,
     Formula,
@@ -25,17 +23,16 @@ from generator.review.formula import (
     Sum,
 )
 from generator.review.plain import plain
-from generator.robot.readers import read
 from generator.symbolic.model import Model
+from tests.conftest import derived
 from tests.subject import Subject, Vector
 
 XHTML = "{http://www.w3.org/1999/xhtml}"
 SVG = "{http://www.w3.org/2000/svg}"
 
 
-@cache
 def model(name: str) -> Model:
-    return derive(read(find_robot(name)))
+    return derived(name).model
 
 
 @cache

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -10,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
 from numpy.typing import ArrayLike, NDArray
 
 from generator.backends import c as c_backend
@@ -19,13 +21,11 @@ from generator.resources import find_robot
 from generator.robot.readers import read
 from generator.symbolic.model import Model
 from tests.bound import Bound
-from tests.compiled import run, write
+from tests.compiled import SHARED, run, write
 from tests.subject import Subject, subject
 
 Vector = NDArray[np.float64]
 
-#: Without start files, which after -ffast-math round small numbers of the whole process to zero.
-_SHARED = ("-shared", "-fPIC", "-nostartfiles")
 QUANTITIES = (
     "direct_dynamics_sliding",
     "direct_dynamics_smooth",
@@ -42,7 +42,7 @@ QUANTITIES = (
 PLANTS = [
     ("kr500", "rigid"),
     ("kr500", "flexible"),
-    ("kr270", "flexible"),
+    pytest.param("kr270", "flexible", marks=pytest.mark.long),
     ("scara", "rigid"),
     ("scara", "flexible"),
     ("tree_two_arms", "rigid"),
@@ -72,11 +72,14 @@ Make = Callable[..., "Simulation"]
 
 
 def maker(folder: Path) -> Make:
-    """Makes simulations in folders of their own below ``folder``."""
+    """Makes simulations below ``folder``; those of one model with the same flags share what is compiled."""
+    models: list[Model] = []
 
     def made(of: Subject, plant: str = "rigid", *flags: str) -> Simulation:
-        place = folder / str(len(list(folder.iterdir())))
-        place.mkdir()
+        if not any(one is of.model for one in models):
+            models.append(of.model)
+        place = folder / str(next(k for k, one in enumerate(models) if one is of.model))
+        place.mkdir(exist_ok=True)
         return Simulation(of.model, place, of.parameters, plant, ("-O1", *flags))
 
     return made
@@ -112,6 +115,11 @@ class Run:
     seconds: float
 
 
+@cache
+def _bound(name: str, library: Path, header: Path, flags: Sequence[str]) -> Bound:
+    return Bound(name, library, header, flags)
+
+
 @dataclass
 class Simulation:
     """The generated simulation of one robot: ``plant`` is rigid or flexible, ``size`` its number of coordinates."""
@@ -125,18 +133,21 @@ class Simulation:
     _c: Bound = field(init=False)
 
     def __post_init__(self) -> None:
-        """Compiles and binds."""
+        """Compiles, once in a folder, and binds."""
         self.name = self.model.robot.name
         self.macro = self.name.upper()
         self.n = self.model.dof
         self.size = self.n if self.plant == "rigid" else self.model.flexible_dof
-        emit(self.model, self.folder, self.methods)
+        names = [method.name for method in self.methods]
+        key = hashlib.sha256(repr((*names, *self.flags)).encode()).hexdigest()[:12]
+        library = self.folder / f"lib{self.name}{key}.so"
         sources = [self.folder / "c" / f"{self.name}.c", self.folder / "simulation" / f"{self.name}_simulation.c"]
-        library = self.folder / f"lib{self.name}{len(list(self.folder.iterdir()))}.so"
         include = f"-I{self.folder / 'c'}"
-        run(["gcc", "-std=c99", *_SHARED, *self.flags, include, *sources, "-o", library, "-lm"])
+        if not library.exists():
+            emit(self.model, self.folder, self.methods)
+            run(["gcc", "-std=c99", *SHARED, *self.flags, include, *sources, "-o", library, "-lm"])
         header = self.folder / "simulation" / f"{self.name}_simulation.h"
-        self._c = Bound(self.name, library, header, ["-D__STDC_HOSTED__=1", *self.flags, include])
+        self._c = _bound(self.name, library, header, ("-D__STDC_HOSTED__=1", *self.flags, include))
         self.real = np.dtype(np.float32 if any("USE_FLOAT" in flag for flag in self.flags) else np.float64)
         self.prepared = self._c.new("prepared *")
         params = self._c.new("params *")

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -12,15 +10,10 @@ from sympy import Integer, pi
 from generator.backends.printing.runge_kutta import METHODS
 from generator.robot.description import FIXED, REVOLUTE
 from tests.chains import joint, on_all_joints, robot
-from tests.simulated import PLANTS, QUANTITIES, Make, Vector, arm, maker, positions, state_of
+from tests.simulated import PLANTS, QUANTITIES, Make, Vector, arm, positions, state_of
 from tests.subject import Subject, close, subject
 
 NAMES = [method.name.upper() for method in METHODS]
-
-
-@pytest.fixture
-def make(tmp_path: Path) -> Make:
-    return maker(tmp_path)
 
 
 # -- quantities -------------------------------------------------------------------------------------------------------

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from argparse import ArgumentParser
 from collections.abc import Iterator
 from dataclasses import asdict, replace
@@ -291,15 +292,21 @@ PLAYED = {
 
 
 @pytest.mark.parametrize("text", PLAYED)
-def test_a_file_that_cannot_be_played(
-    text: str, file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_file_that_cannot_be_played(text: str, machine: Machine, tmp_path: Path) -> None:
     run = tmp_path / "run.csv"
+    run.write_text(text)
+    with pytest.raises(InputError, match=re.escape(PLAYED[text])):
+        simulate(machine, Settings(trajectory="played", trajectory_settings={"file": str(run)}, duration=1.0))
+
+
+def test_of_a_file_that_cannot_be_played_the_command_says_so(
+    file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    run, text = tmp_path / "run.csv", next(iter(PLAYED))
     run.write_text(text)
     words = ("--trajectory", "played", "--set", f"file={run}", "--duration", "1")
     done = command("simulate", file, "--out", tmp_path / "out.csv", *words, capsys=capsys)
-    assert done.status == 2
-    assert PLAYED[text] in done.err.splitlines()[-1]
+    assert (done.status, PLAYED[text] in done.err.splitlines()[-1]) == (2, True)
 
 
 def test_positions_are_written_as_the_controller_counts_them(

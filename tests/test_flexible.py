@@ -23,6 +23,7 @@ from generator.robot.description import FIXED, REVOLUTE, EffectUse, Robot
 from generator.robot.readers import read
 from generator.units import Quantity
 from tests.chains import ElasticChain, elastic_chain, joint, random_robot, robot
+from tests.conftest import FURTHER
 from tests.subject import Subject, Vector, close, slope, subject
 
 QUANTITIES = (
@@ -36,7 +37,11 @@ QUANTITIES = (
 SEEDS = (21, 22)
 MOTOR_SIDE = {"Iam": "Ia", "Fvm": "Fv", "Fcm": "Fc", "Offm": "Off"}
 
-ELASTIC = [path.stem for path in robots() if read(path).flexible]
+ELASTIC = [
+    pytest.param(path.stem, marks=pytest.mark.long) if path.stem in FURTHER else path.stem
+    for path in robots()
+    if read(path).flexible
+]
 
 
 @pytest.fixture(scope="module", params=ELASTIC)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
-from pathlib import Path
 from random import Random
 
 import numpy as np
@@ -12,7 +11,7 @@ import pytest
 import sympy
 
 from generator.derivation import derive
-from generator.resources import find_robot, robots
+from generator.resources import find_robot
 from generator.robot.description import Robot
 from generator.robot.readers import read
 from generator.symbolic import lean_motion, regressor
@@ -24,6 +23,7 @@ from generator.symbolic.interpret import evaluate, evaluate_nodes
 from generator.symbolic.lean_screws import screws_beside
 from generator.symbolic.model import Model
 from generator.symbolic.statements import Node, Program
+from tests.conftest import ALL, EVERY
 
 #: Multiplications, additions and divisions that a function of a robot of the report's structure may cost at most, in
 #: base parameters with numeric geometry: with all its effects, with rotor inertias, with rotor inertias and friction.
@@ -83,7 +83,7 @@ def _above(robot: Robot, limits: dict[str, int]) -> dict[str, int]:
     return {f: functions[f].count.total for f, limit in limits.items() if functions[f].count.total > limit}
 
 
-@pytest.mark.parametrize("name", ["kr500", "kr270"])
+@pytest.mark.parametrize("name", ["kr500", pytest.param("kr270", marks=pytest.mark.long)])
 def test_operation_counts(name: str) -> None:
     robot = _robot(name)
     assert _above(robot, AT_MOST) == {}
@@ -100,7 +100,7 @@ def test_operation_counts_belong_to_the_structure(seed: int) -> None:
 
 
 @pytest.mark.parametrize("name", SAVED)
-@pytest.mark.parametrize("seed", [None, 0, pytest.param(1, marks=pytest.mark.long)])
+@pytest.mark.parametrize("seed", [None, *(pytest.param(seed, marks=pytest.mark.long) for seed in (0, 1))])
 def test_other_structures_save_too(name: str, seed: int | None) -> None:
     robot = _robot(name) if seed is None else _with_random_lengths(_robot(name), seed)
     names = list(SAVED[name])
@@ -180,10 +180,10 @@ def test_wrenches_may_meet_screws_at_the_end_of_any_segment(name: str) -> None:
             np.testing.assert_allclose(values[entry], values[expected], rtol=0, atol=1e-11)
 
 
-@pytest.mark.parametrize("path", robots(), ids=lambda path: path.stem)
-def test_short_and_textbook_equations_agree(path: Path) -> None:
+@pytest.mark.parametrize("name", [name for name in ALL if name != EVERY])
+def test_short_and_textbook_equations_agree(name: str) -> None:
     """And those that are counted are never longer."""
-    robot = read(path)
+    robot = _robot(name)
     counted = ["inverse_dynamics", "gravity", "inertia_matrix"]
     names = [*counted, "bias", "regressor", "payload_regressor"]
     lean, plain = derive(robot, names, check=False), derive(robot, names, check=False, plain=True)

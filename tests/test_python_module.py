@@ -20,12 +20,10 @@ from generator.backends import batch, c, numpy, python, simulation
 from generator.derivation import derive
 from generator.errors import InputError
 from generator.python_library import build_library
-from generator.resources import find_robot
 from generator.robot.readers import read
-from tests.chains import every_effect
 from tests.commands import PENDULUM, ROOT, command
 from tests.compiled import module, write
-from tests.conftest import EVERY
+from tests.conftest import EVERY, derived
 from tests.subject import Subject, subject
 
 Array = NDArray[Any]
@@ -73,7 +71,7 @@ def made(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactor
     file = folder / "pendulum.yaml"
     file.write_text(PENDULUM)
     name = request.param
-    arm = subject(every_effect() if name == EVERY else read(file if name == "pendulum" else find_robot(name)))
+    arm = subject(read(file)) if name == "pendulum" else derived(name)
     build_library(folder_of(arm, folder), name)
     numpy_module = module(numpy.emit(arm.model)[f"{name}.py"], name)
     return Made(arm, load(folder / "python" / f"{name}.py"), numpy_module, folder)

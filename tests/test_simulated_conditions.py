@@ -101,18 +101,17 @@ def drifting_by_heat(file: Path, folder: Path, usual: float) -> Path:
     ],
 )
 def test_a_drift_by_the_motors_heat_is_taken_out_as_it_was_recorded(
-    beside: float, usual: float, warmest: float, file: Path, tmp_path: Path
+    beside: float, usual: float, warmest: float, machine: Machine, file: Path, tmp_path: Path
 ) -> None:
     """Another drift ``beside`` it, of which the file knows nothing, stays in the torques."""
-    drifting = drifting_by_heat(file, tmp_path, usual)
     settings = replace(SHORT, warm_up=1.5)
     taus = []
-    for source, constant in ((file, 0.0), (drifting, beside)):
-        with compiled(read(source)) as of:
+    with compiled(read(drifting_by_heat(file, tmp_path, usual))) as drifting:
+        for of, constant in ((machine, 0.0), (drifting, beside)):
             made = simulate(of, replace(settings, constant_drift=constant))
-            path, _ = save(made, "two_links", of.robot.digest, tmp_path / f"{source.stem}.csv")
+            path, _ = save(made, "two_links", of.robot.digest, tmp_path / f"{len(taus)}.csv")
             run = load(str(path), of.robot)
-        taus.append(run.tau)
+            taus.append(run.tau)
     assert run.warmth is not None
     assert run.warmth.max() > warmest
     known = 1 + beside * (1 - np.exp(-run.elapsed / 1.5))

@@ -15,7 +15,7 @@ from generator.c_selftest import WARNINGS
 from generator.resources import find_robot
 from generator.robot.readers import read
 from tests.compiled import run, write
-from tests.simulated import METHODS, PLANTS, QUANTITIES, Gains, Make, Vector, arm, emit, maker, positions, state_of
+from tests.simulated import METHODS, PLANTS, QUANTITIES, Gains, Make, Vector, arm, emit, positions, state_of
 from tests.subject import Subject, subject
 
 #: Wide enough that steps resolve the turn of the friction [rad/s].
@@ -23,11 +23,6 @@ WIDE = 0.5
 #: A method's errors with a few steps fall by this much of its order at least.
 SLACK = 0.35
 NAMES = [method.name.upper() for method in METHODS]
-
-
-@pytest.fixture
-def make(tmp_path: Path) -> Make:
-    return maker(tmp_path)
 
 
 # -- integrators ------------------------------------------------------------------------------------------------------
@@ -152,7 +147,7 @@ def gains_of(of: Subject) -> Gains:
 
 
 @pytest.mark.parametrize("plant", ["rigid", "flexible"])
-@pytest.mark.parametrize("name", ["kr500", "kr270", "scara"])
+@pytest.mark.parametrize("name", ["kr500", pytest.param("kr270", marks=pytest.mark.long), "scara"])
 def test_a_closed_loop_in_saturation_is_the_same_elsewhere(name: str, plant: str, make: Make) -> None:
     of = arm(name)
     simulated, gains, n = make(of, plant), gains_of(of), of.dof
@@ -213,7 +208,7 @@ def test_a_run_that_diverges_ends(flag: str, make: Make) -> None:
 
 
 @pytest.mark.parametrize("precision", ["", "USE_FLOAT"])
-@pytest.mark.parametrize("name", sorted({name for name, _ in PLANTS}))
+@pytest.mark.parametrize("name", ["kr500", pytest.param("kr270", marks=pytest.mark.long), "scara", "tree_two_arms"])
 def test_strictly_compiled_in_both_precisions(name: str, precision: str, tmp_path: Path) -> None:
     emit(arm(name).model, tmp_path)
     define = [f"-D{name.upper()}_{precision}"] if precision else []
