@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
 from math import asin, atan, atan2, cos, pi, sin
 from pathlib import Path
 
@@ -38,6 +39,17 @@ def with_exponent(robot: Robot, exponent: Rational | Integer) -> Robot:
     return replace(robot, effects=tuple(map(changed, robot.effects)))
 
 
+@cache
+def of_file(name: str) -> Subject:
+    return subject(read(find_robot(name)), names=QUANTITIES)
+
+
+@cache
+def gas(exponent: Rational | Integer) -> Subject:
+    """The KR500 with this exponent."""
+    return subject(with_exponent(read(find_robot("kr500")), exponent), names=QUANTITIES)
+
+
 def made_up(kind: str) -> Subject:
     """Report Table 4's structure with a balancer of another size on joint 3."""
     lengths = {name: Rational(k + 3, 10) for k, name in enumerate(("d2", "d3", "d4", "rl1", "rl4", "rl6"))}
@@ -49,9 +61,9 @@ def made_up(kind: str) -> Subject:
 
 
 MAKERS: dict[str, Callable[[], Subject]] = {
-    "spring": lambda: subject(read(find_robot("kr270")), names=QUANTITIES),
-    "isotherm": lambda: subject(read(find_robot("kr500")), names=QUANTITIES),
-    "polytrope": lambda: subject(with_exponent(read(find_robot("kr500")), Rational(13, 10)), names=QUANTITIES),
+    "spring": lambda: of_file("kr270"),
+    "isotherm": lambda: of_file("kr500"),
+    "polytrope": lambda: gas(Rational(13, 10)),
     "spring on joint 3": lambda: made_up("spring_balancer"),
     "polytrope on joint 3": lambda: made_up("gas_balancer"),
 }
@@ -136,7 +148,7 @@ def lever(crank: tuple[float, float, float], q23: float, x: float) -> float:
 
 @pytest.mark.parametrize("name", CRANKS)
 def test_torque_is_the_reports_with_the_quadrant_kept(name: str) -> None:
-    arm = subject(read(find_robot(name)), names=QUANTITIES)
+    arm = of_file(name)
     for x in np.linspace(-2.6, 0.6, 41):
         seen = observed(arm, x)
         q23, _ = angles(CRANKS[name], x)
@@ -145,7 +157,7 @@ def test_torque_is_the_reports_with_the_quadrant_kept(name: str) -> None:
 
 @pytest.mark.parametrize(("name", "dead_centre"), [("kr270", -87.5), ("kr500", -86.7)])
 def test_the_printed_arctangent_is_wrong_beyond_dead_centre(name: str, dead_centre: float) -> None:
-    arm = subject(read(find_robot(name)), names=QUANTITIES)
+    arm = of_file(name)
     crank = CRANKS[name]
     assert close(np.degrees(-pi - crank[2]), dead_centre, 1e-3)
     for x in (-1.2, -1.8):
@@ -163,14 +175,14 @@ def test_length_is_the_law_of_cosines(balanced: Subject) -> None:
 
 
 def test_spring_force_is_linear_in_the_length() -> None:
-    arm = subject(read(find_robot("kr270")), names=QUANTITIES)
+    arm = of_file("kr270")
     for x in (-2.0, -0.4, 0.0):
         seen = observed(arm, x)
         assert close(seen["force"], arm.values["Kr2"] * seen["length"] + arm.values["K02"])
 
 
 def test_printed_spring_offset_pushes_and_the_tenth_of_it_carries_the_arm() -> None:
-    arm = subject(read(find_robot("kr270")), names=QUANTITIES)
+    arm = of_file("kr270")
     printed, tenth = (arm.with_values({"Kr2": 3.95e4, "K02": offset}) for offset in (-7.38e4, -7.38e3))
     lower, upper = (float(arm.robot.joints[1].lower), float(arm.robot.joints[1].upper))  # type: ignore[arg-type]
     reach = np.linspace(lower, upper, 200)
@@ -182,7 +194,7 @@ def test_printed_spring_offset_pushes_and_the_tenth_of_it_carries_the_arm() -> N
 
 @pytest.mark.parametrize("exponent", [Integer(1), Rational(13, 10), Rational(7, 5)])
 def test_gas_keeps_force_times_volume_to_the_exponent(exponent: Rational | Integer) -> None:
-    arm = subject(with_exponent(read(find_robot("kr500")), exponent), names=QUANTITIES)
+    arm = gas(exponent)
     at_zero, F0 = observed(arm, 0.0), arm.values["F02"]
     assert close(at_zero["force"], F0)
     for x in (-2.2, -1.0, 0.3):
@@ -192,9 +204,8 @@ def test_gas_keeps_force_times_volume_to_the_exponent(exponent: Rational | Integ
 
 
 def test_isotherm_is_the_limit_of_polytropes() -> None:
-    robot = read(find_robot("kr500"))
-    isotherm = subject(robot, names=QUANTITIES).only("F0")
-    near = [subject(with_exponent(robot, 1 + Rational(1, 10**k)), names=QUANTITIES).only("F0") for k in (4, 6)]
+    isotherm = of_file("kr500").only("F0")
+    near = [gas(1 + Rational(1, 10**k)).only("F0") for k in (4, 6)]
     for name in ("potential_energy", "balancer"):
         for x in (-2.2, -1.0, 0.3):
             limit = np.array(list(isotherm.generated(name, {"q": x * axis(isotherm)}).values()))
@@ -208,7 +219,7 @@ def test_isotherm_is_the_limit_of_polytropes() -> None:
 
 def test_spring_stiffness_hides_in_the_weight_of_the_arm_at_rest() -> None:
     # Kr's column is -d21 d22 sin(phi + q2), MX2R's and MY2's are g cos q2 and g sin q2 up to sign.
-    arm = subject(read(find_robot("kr270")), names=QUANTITIES)
+    arm = of_file("kr270")
     names = list(arm.base_values)
     states = [arm.state(seed)[0] for seed in range(40)]
     rest = np.concatenate([arm.output("regressor", q=q, qd=0 * q, qdd=0 * q) for q in states])
@@ -223,7 +234,7 @@ def test_spring_stiffness_hides_in_the_weight_of_the_arm_at_rest() -> None:
 
 def test_the_lever_arm_is_largest_where_the_rod_is_tangent_to_the_crank() -> None:
     d21, d22, phi = CRANKS["kr500"]
-    arm = subject(read(find_robot("kr500")), names=QUANTITIES).only("F0")
+    arm = of_file("kr500").only("F0")
     tangent = pi / 2 + asin(d22 / d21)
     for side in (1.0, -1.0):
         x = side * tangent - phi

@@ -21,6 +21,7 @@ from generator.symbolic.function import PARAMETERS
 from generator.symbolic.interpret import evaluate
 from generator.symbolic.parameter_sets import parameter_vector
 from tests.commands import PENDULUM, command
+from tests.conftest import derived
 
 #: Multiplications, additions and divisions of the inverse dynamics with Table 11's essential parameters, without the
 #: balancer, and with it.
@@ -55,9 +56,8 @@ def test_built_in_values_give_what_the_parameter_vector_gives(robot: str, parame
 
 def test_the_header_names_the_functions_without_a_result_where_no_body_has_an_inertia() -> None:
     """And nothing to carry: as with a set of drive constants alone."""
-    described = read(find_robot("kr500"))
-    model = derive(described)
-    vector = parameter_vector(model, described.parameter_sets["report_table_15"].values)
+    model = derived("kr500").model
+    vector = parameter_vector(model, model.robot.parameter_sets["report_table_15"].values)
     random = np.random.default_rng(5)
     without = set()
     for name, function in model.functions.items():

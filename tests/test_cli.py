@@ -143,7 +143,7 @@ def test_a_reader_that_stops_early_is_no_error() -> None:
     assert "Error" not in done.stderr
 
 
-@pytest.mark.parametrize("words", ["list", "check kr500"])
+@pytest.mark.parametrize("words", ["list", "check tilted_two_link"])
 def test_output_that_cannot_be_written_is_one_line(words: str) -> None:
     """Of many bytes some are written at once, of few all at the end."""
     line = f'"{sys.executable}" -m generator {words}'

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from decimal import Decimal
+from functools import cache
 from random import Random
 
 import numpy as np
@@ -26,6 +27,11 @@ from tests.subject import Subject, subject
 IN_SYMBOLS = in_symbols(SYMBOLIC)
 
 
+@cache
+def of_file(name: str) -> Model:
+    return derive(read(find_robot(name)), ())
+
+
 def grouped(model: Model) -> dict[str, dict[str, float]]:
     """The model's groupings of more than one term."""
     return {name: terms for name, terms in model.grouping.numeric().items() if len(terms) > 1}
@@ -38,7 +44,7 @@ def grouped(model: Model) -> dict[str, dict[str, float]]:
 def test_the_17_groupings_are_the_printed_ones(name: str, text: str) -> None:
     expected = printed(text)
     assert len(expected) == 17
-    found = grouped(derive(read(find_robot(name)), ()))
+    found = grouped(of_file(name))
     assert found.keys() == expected.keys()
     for base, terms in expected.items():
         # The print keeps five digits and drops trailing zeros; 1.05365 has six.
@@ -47,7 +53,7 @@ def test_the_17_groupings_are_the_printed_ones(name: str, text: str) -> None:
 
 
 def test_the_nominal_lengths_do_not_reproduce_the_kr270_print() -> None:
-    found = grouped(derive(read(find_robot("kr270")), ()))
+    found = grouped(of_file("kr270"))
     expected = printed(SECTION_5_1)
     assert {base: terms.keys() for base, terms in found.items()} == {b: t.keys() for b, t in expected.items()}
     assert Decimal(f"{found['ZZ1R']['M2']:.5g}") != expected["ZZ1R"]["M2"]
@@ -55,7 +61,7 @@ def test_the_nominal_lengths_do_not_reproduce_the_kr270_print() -> None:
 
 @pytest.mark.parametrize("name", ["kr270", "kr270_calibrated", "kr500"])
 def test_groupings_in_symbols(name: str) -> None:
-    model = derive(read(find_robot(name)), ())
+    model = of_file(name)
     found = {base.name: base.terms for base in model.grouping.base if len(base.terms) > 1}
     assert found.keys() == IN_SYMBOLS.keys()
     symbols = {n: sympy.Symbol(n, real=True) for n in ("d2", "d3", "d4", "rl1", "rl4", "rl6")}
@@ -67,7 +73,7 @@ def test_groupings_in_symbols(name: str) -> None:
 
 
 def test_what_stands_alone_keeps_its_name() -> None:
-    model = derive(read(find_robot("kr500")), ())
+    model = of_file("kr500")
     alone = [base.name for base in model.grouping.base if len(base.terms) == 1]
     inertial = [name for name in alone if name[0] in "XYZM"]
     assert inertial == [
@@ -78,7 +84,7 @@ def test_what_stands_alone_keeps_its_name() -> None:
 
 
 def test_what_has_no_effect_is_named() -> None:
-    eliminated = derive(read(find_robot("kr500")), ()).grouping.eliminated
+    eliminated = of_file("kr500").grouping.eliminated
     without_effect = [one.name for one in eliminated if not one.into]
     assert without_effect == ["XX1", "XY1", "XZ1", "YY1", "YZ1", "MX1", "MY1", "MZ1", "M1", "MZ2"]
 
@@ -91,7 +97,10 @@ def count(robot: Robot, effects: Sequence[EffectUse]) -> int:
     return len(derive(replace(robot, effects=tuple(effects), flexible=()), ()).base_parameters)
 
 
-@pytest.mark.parametrize(("name", "all_effects"), [("kr270", 60), ("kr270_calibrated", 60), ("kr500", 59)])
+@pytest.mark.parametrize(
+    ("name", "all_effects"),
+    [("kr270", 60), pytest.param("kr270_calibrated", 60, marks=pytest.mark.long), ("kr500", 59)],
+)
 def test_counts_of_the_reports_robots(name: str, all_effects: int) -> None:
     robot = read(find_robot(name))
     assert count(robot, ()) == 36
@@ -100,7 +109,7 @@ def test_counts_of_the_reports_robots(name: str, all_effects: int) -> None:
     assert count(robot, robot.effects) == all_effects
 
 
-@pytest.mark.parametrize("name", ["kr270", "kr500"])
+@pytest.mark.parametrize("name", [pytest.param("kr270", marks=pytest.mark.long), "kr500"])
 def test_counts_of_the_12_joint_chain(name: str) -> None:
     twelve, rigid = read(find_robot(f"{name}_table5")), read(find_robot(name))
     for robot in (twelve, elastic_chain(rigid).robot):
@@ -110,7 +119,7 @@ def test_counts_of_the_12_joint_chain(name: str) -> None:
         assert count(robot, on_all_joints(robot.joints, "rotor_inertia")) == 82
 
 
-@pytest.mark.parametrize("name", ["kr270", "kr500"])
+@pytest.mark.parametrize("name", [pytest.param("kr270", marks=pytest.mark.long), "kr500"])
 def test_reduced_flexible_regressor_has_66_columns(name: str) -> None:
     robot = replace(read(find_robot(name)), effects=())
     model = derive(robot, ("flexible_regressor",))

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import scipy.signal
 
-from tests.commands import process
+from tests.commands import command
 from tests.plant.effect import Effect
 from tests.plant.known_effects import textbook
 from tests.plant.machine import Machine
@@ -251,14 +251,16 @@ def test_run_files_hold_what_was_logged(tmp_path: Path) -> None:
         write_csv(played, tmp_path / "C.csv", "x")
 
 
-def test_robot_files_are_accepted_and_mean_the_same_robot(robot: Robot, tmp_path: Path) -> None:
+def test_robot_files_are_accepted_and_mean_the_same_robot(
+    robot: Robot, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     path = tmp_path / f"{robot.name}.yaml"
     path.write_text(robot_file(robot))
     q, qd, qdd = np.random.default_rng(4).uniform(0.1, 1, (3, 1, robot.joints))
     words = [
         word for name, x in (("q", q), ("qd", qd), ("qdd", qdd)) for word in (f"--{name}", *map(repr, x[0].tolist()))
     ]
-    done = process("evaluate", path, "inverse_dynamics", "--parameters", PRIOR, *words)
+    done = command("evaluate", path, "inverse_dynamics", "--parameters", PRIOR, *words, capsys=capsys)
     assert done.status == 0, done.err
     machine = Machine(robot, own_effects(robot))
     expected = machine.rigid_torques(q, qd, qdd)[0]
@@ -268,7 +270,9 @@ def test_robot_files_are_accepted_and_mean_the_same_robot(robot: Robot, tmp_path
     np.testing.assert_allclose(json.loads(done.out)["tau"], expected, rtol=1e-9, atol=1e-9)
 
 
-def test_robot_files_hold_further_effects_by_the_textbooks_law(tmp_path: Path) -> None:
+def test_robot_files_hold_further_effects_by_the_textbooks_law(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     laws = {"cable_spring": 1, "stribeck": 1, "gradual_rise": 2, "position_friction": 3}
     exact = {"quadratic_viscous": 2, "asymmetric_coulomb": 3}
     known = [Effect(law, joint) for law, joint in {**laws, **exact}.items()]
@@ -278,7 +282,7 @@ def test_robot_files_hold_further_effects_by_the_textbooks_law(tmp_path: Path) -
     words = [
         word for name, x in (("q", q), ("qd", qd), ("qdd", qdd)) for word in (f"--{name}", *map(repr, x[0].tolist()))
     ]
-    done = process("evaluate", path, "inverse_dynamics", "--parameters", PRIOR, *words)
+    done = command("evaluate", path, "inverse_dynamics", "--parameters", PRIOR, *words, capsys=capsys)
     assert done.status == 0, done.err
     simple = [effect for effect in own_effects(ARM) if effect not in ARM.own]
     machine = Machine(ARM, (*simple, *(effect for effect in known if effect.law in exact)))

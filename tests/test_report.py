@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 import pytest
 
-from generator.resources import find_robot
-from generator.robot.readers import read
-from tests.subject import Subject, close, subject
+from tests.conftest import derived
+from tests.subject import Subject, close
 
 KUKAS = ("kr270", "kr500")
 JOINT = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M", "Ia", "Fv", "Fc", "Off")
 BALANCER = {"kr270": ("Kr2", "K02"), "kr500": ("F02",)}
 
 
-@cache
 def kuka(name: str) -> Subject:
     """One of the report's robots, derived."""
-    return subject(read(find_robot(name)))
+    return derived(name)
 
 
 @pytest.mark.parametrize(

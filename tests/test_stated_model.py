@@ -5,10 +5,8 @@ from __future__ import annotations
 import pytest
 
 from generator.backends.printing.stated_model import stated_model
-from generator.derivation import derive
-from generator.resources import find_robot
 from generator.review import documents
-from generator.robot.readers import read
+from tests.conftest import derived
 
 
 def squeezed(text: str) -> str:
@@ -24,7 +22,7 @@ def squeezed(text: str) -> str:
     ],
 )
 def test_a_header_states_the_model_that_was_reviewed(name: str, stands: str, row: str) -> None:
-    model = derive(read(find_robot(name)))
+    model = derived(name).model
     lines, review = stated_model(model), documents.markdown(model)
     text = squeezed(" ".join(lines))
     assert stands in text

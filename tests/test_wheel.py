@@ -62,6 +62,6 @@ def test_the_wheel_holds_the_packages_and_their_data_alone(wheel: Path) -> None:
 def test_an_empty_environment_generates_what_the_checkout_generates(installed: Path, tmp_path: Path) -> None:
     assert run(installed / "python", "-m", "pip", "check", cwd=tmp_path) == "No broken requirements found.\n"
     assert "kr270" in run(installed / "counterpoise", "list", cwd=tmp_path)
-    run(installed / "counterpoise", "generate", "scara", "--out", "by wheel", "--self-test", cwd=tmp_path)
-    assert process("generate", "scara", "--out", tmp_path / "by checkout").status == 0
+    run(installed / "counterpoise", "generate", "tilted_two_link", "--out", "by wheel", "--self-test", cwd=tmp_path)
+    assert process("generate", "tilted_two_link", "--out", tmp_path / "by checkout").status == 0
     assert tree(tmp_path / "by wheel") == tree(tmp_path / "by checkout")
