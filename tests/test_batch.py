@@ -27,7 +27,9 @@ from tests.batches import Batch, Filter
 from tests.commands import PENDULUM, ROOT
 from tests.compiled import module, write
 
-ROBOTS = ("kr500", "scara", "tree_two_arms", "pendulum")
+ROBOTS = ("kr500", "scara", pytest.param("tree_two_arms", marks=pytest.mark.long), "pendulum")
+#: All that the batch functions are made of and compared with.
+QUANTITIES = ("inverse_dynamics", "regressor", "regressor_packed")
 SIZES = (0, 1, 7, 8, 9, 150)
 LOW_PASS = tuple(float(x) for x in np.hanning(23)[1:-1] / np.hanning(23).sum())
 FILTERS = {
@@ -102,7 +104,7 @@ def arm(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
     path = folder / "pendulum.yaml"
     path.write_text(PENDULUM)
     robot = read(path if request.param == "pendulum" else find_robot(request.param))
-    model = derive(robot, check=False)
+    model = derive(robot, QUANTITIES, check=False)
     write(folder / "c", c_backend.library(model, ()))
     write(folder / "batch", batch_backend.emit(model))
     numpy_module = module(numpy_backend.emit(model)[f"{robot.name}.py"], robot.name)
@@ -215,7 +217,7 @@ def test_dependent_columns_give_no_nan(arm: Arm, batch: Batch) -> None:
         assert agree(R.T @ R, A.T @ A)
 
 
-@pytest.mark.parametrize("arm", ["kr500", "tree_two_arms"], indirect=True)
+@pytest.mark.parametrize("arm", ["kr500", pytest.param("tree_two_arms", marks=pytest.mark.long)], indirect=True)
 def test_threads_change_no_bit(arm: Arm, batch: Batch, tmp_path: Path) -> None:
     """In processes of their own, as OpenMP reads the number of threads once."""
     found = []
@@ -270,12 +272,24 @@ OPTIONS = {
         ("-O2", "-march=native", "-D{}_USE_FLOAT", "-D{}_STREAM_BYTES=0"),
     ),
 }
+#: What others of them together hold.
+FURTHER = {
+    ("gcc", "-O2"),
+    ("gcc", "-O2", "-mavx2", "-mfma"),
+    ("gcc", "-O2", "-march=native", "-D{}_STREAM_BYTES=0"),
+    ("gcc", "-O2", "-D{}_USE_FLOAT", "-D{}_STREAM_BYTES=0"),
+    ("clang", "-O2", "-march=native", "-D{}_STREAM_BYTES=0"),
+}
 
 
 @pytest.mark.parametrize("arm", ["scara", pytest.param("pendulum", marks=pytest.mark.long)], indirect=True)
 @pytest.mark.parametrize(
     ("compiler", "flags"),
-    [(compiler, flags) for compiler, lists in OPTIONS.items() for flags in lists],
+    [
+        pytest.param(compiler, flags, marks=[pytest.mark.long] * ((compiler, *flags) in FURTHER))
+        for compiler, lists in OPTIONS.items()
+        for flags in lists
+    ],
     ids=lambda value: value if isinstance(value, str) else " ".join(value),
 )
 def test_compilers_and_options_agree(arm: Arm, compiler: str, flags: tuple[str, ...]) -> None:

@@ -148,7 +148,7 @@ def test_an_unknown_study_is_one_line(capsys: pytest.CaptureFixture[str]) -> Non
 # -- the comparison ---------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("robot", ["kr270", pytest.param("stanford", marks=pytest.mark.long)])
+@pytest.mark.parametrize("robot", ["stanford", pytest.param("kr270", marks=pytest.mark.long)])
 def test_libraries_agree_and_other_parameters_do_not(robot: str, tmp_path: Path) -> None:
     subject = Chain(robot)
     libraries = [*ours.build(subject, tmp_path / "a"), *casadi_recursion.build(subject, tmp_path / "a")]

@@ -139,7 +139,14 @@ def test_what_counts_as_agreement_is_printed(
     assert done.out.endswith(f"; {apart} of {apart} with a std agree within 1e+09 std\n")
 
 
-@pytest.mark.parametrize("b", ["{}/results.json", "{}/results.json:essential", "{}/kr500.yaml:report_table_13"])
+@pytest.mark.parametrize(
+    "b",
+    [
+        "{}/results.json",
+        pytest.param("{}/results.json:essential", marks=pytest.mark.long),
+        "{}/kr500.yaml:report_table_13",
+    ],
+)
 def test_the_report_of_what_is_compared_is_spared(b: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     written(tmp_path, ZZ1R=1.0)
     (tmp_path / "kr500.yaml").write_bytes(find_robot("kr500").read_bytes())

@@ -28,6 +28,8 @@ DOCUMENTS = ["README.md", *sorted(str(path.relative_to(ROOT)) for path in (ROOT 
 FOLDERS = (
     "benchmarks", "docs", "generated", "generator", "identification", "recipes", "robots", "templates", "tests"
 )  # fmt: skip
+#: Sessions of things that other tests hold.
+FURTHER = ("docs/batch.md", "docs/output_error.md", "docs/simulation.md")
 
 _LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 _CODE = re.compile(r"`([^`]+)`")
@@ -81,7 +83,9 @@ def manifest() -> dict[str, Any]:
 # -- sessions ---------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", SESSIONS)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=pytest.mark.long) if name in FURTHER else name for name in SESSIONS]
+)
 def test_sessions_print_what_is_printed(name: str, play: Callable[[str], Played]) -> None:
     written, printed = text(name), play(name).text
     told = "\n".join(unified_diff(written.splitlines(), printed.splitlines(), "written", "printed", "", "", 1, ""))

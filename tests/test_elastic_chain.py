@@ -20,7 +20,7 @@ def _values(given: dict[str, float]) -> dict[str, ParameterValue]:
     return {name: ParameterValue(value, "") for name, value in given.items()}
 
 
-@pytest.mark.parametrize("name", ["kr500", "kr270"])
+@pytest.mark.parametrize("name", ["kr500", pytest.param("kr270", marks=pytest.mark.long)])
 @pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.long)])
 def test_chain_and_reduced_model_accelerate_alike(name: str, seed: int) -> None:
     robot, twelve = read(find_robot(name)), read(find_robot(f"{name}_table5"))

@@ -63,10 +63,10 @@ def test_expressions_of_pi_and_commas(capsys: pytest.CaptureFixture[str]) -> Non
     [
         ("kr500", "inverse_dynamics"),
         ("kr270", "inverse_dynamics_standard"),
-        ("kr500", "inertia_matrix"),
+        pytest.param("kr500", "inertia_matrix", marks=pytest.mark.long),
         ("puma560", "direct_dynamics"),
         ("scara", "flexible_inverse_dynamics"),
-        ("kr270", "kinetic_energy"),
+        pytest.param("kr270", "kinetic_energy", marks=pytest.mark.long),
         ("kr500", "joint_torque_from_current"),
     ],
 )

@@ -35,6 +35,7 @@ SIGNALS = {
     "time": "signals: {warm_up_time: 20 s}\n",
     "heat": "signals: {warm_up_time: 20 s, warm_torque: 90 N m}\n",
 }
+CASES = [pytest.param("time", marks=pytest.mark.long), "heat"]
 COLD = {"ZZ1": 5.0, "Fv1": 3.0, "Fd1": 85.0}
 DRIFT = {"Fvw1": 2.0, "Fcw1": 10.0}
 UNITS = {"ZZ1": "kg m2", "Fv1": "N m s/rad", "Fd1": "N m", "Fvw1": "N m s/rad", "Fcw1": "N m"}
@@ -71,7 +72,7 @@ def torques(folder: Path, values: dict[str, float], heats: bool) -> tuple[Array,
     return t, q, tau
 
 
-@pytest.mark.parametrize("warmed", ["", *SIGNALS])
+@pytest.mark.parametrize("warmed", [pytest.param("", marks=pytest.mark.long), *CASES])
 def test_torques_with_their_past_are_within_the_limit(
     warmed: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -83,7 +84,7 @@ def test_torques_with_their_past_are_within_the_limit(
     assert 0.99 < load <= 1.0
 
 
-@pytest.mark.parametrize("warmed", SIGNALS)
+@pytest.mark.parametrize("warmed", CASES)
 def test_what_is_expected_of_torques_with_a_past_is_what_repeated_runs_show(
     warmed: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

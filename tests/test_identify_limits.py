@@ -256,7 +256,7 @@ def test_a_set_that_does_not_tell_what_is_given_is_refused(tmp_path: Path, capsy
     assert (done.status, errors) == (2, [f"error: --fix:1:1: {told}"])
 
 
-@pytest.mark.parametrize("robust", [False, True])
+@pytest.mark.parametrize("robust", [False, pytest.param(True, marks=pytest.mark.long)])
 def test_blocks_tell_what_a_sum_of_hidden_parameters_owes_to_others(robust: bool, tmp_path: Path) -> None:
     """A carriage that never turns back: Coulomb friction and offset are one, which leans on viscous friction."""
     of = regressors("emps")

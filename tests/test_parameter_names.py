@@ -50,7 +50,7 @@ parameters:
         ("WIDTH", "NBASE"),
         pytest.param(("RIGID_SIZE", "METHOD_RK4"), marks=pytest.mark.long),
         pytest.param(("CONTACT_FREE", "OBSERVATION_WORK"), marks=pytest.mark.long),
-        ("TILE", "H"),
+        pytest.param(("TILE", "H"), marks=pytest.mark.long),
     ],
 )
 def test_a_length_called_like_a_macro_compiles(names: tuple[str, str], tmp_path: Path) -> None:

@@ -111,7 +111,7 @@ def test_noise_has_size_one_and_is_lost_by_a_projection() -> None:
         (Effect("stribeck", 3), 1.0),
         (Effect("payload"), 0.5),
         (Effect("joint_flexibility", 2), 1.0),
-        (Effect("current_saturation", 2), 2.0),
+        pytest.param(Effect("current_saturation", 2), 2.0, marks=pytest.mark.long),
         (Effect("encoder_offset", 2, -0.01), 1.0),
     ],
 )
@@ -122,7 +122,7 @@ def test_an_effect_is_scaled_to_a_size(effect: Effect, target: float) -> None:
     assert np.sign(found.amount(ARM)) == np.sign(effect.amount(ARM))
 
 
-@pytest.mark.parametrize("name", ["three_axis", "small_wrist", "scara_like"])
+@pytest.mark.parametrize("name", ["three_axis", pytest.param("small_wrist", marks=pytest.mark.long), "scara_like"])
 def test_a_free_fit_absorbs_a_payload_and_no_stribeck(name: str) -> None:
     robot = ROBOTS[name]
     payload, stribeck = Effect("payload"), Effect("stribeck", 2)

@@ -78,7 +78,10 @@ def test_every_table_has_its_rows(results: Results) -> None:
 # -- played anew ------------------------------------------------------------------------------------------------------
 
 
-@pytest.fixture(scope="module", params=["idim_ls", "locked_output", pytest.param("gains", marks=pytest.mark.long)])
+@pytest.fixture(
+    scope="module",
+    params=["idim_ls", *(pytest.param(name, marks=pytest.mark.long) for name in ("locked_output", "gains"))],
+)
 def fresh(request: pytest.FixtureRequest) -> tuple[str, list[Found]]:
     return request.param, played(request.param, range(PLAYED[request.param]))
 

@@ -49,7 +49,7 @@ def test_a_motor_slower_than_a_fifth_of_its_largest_speed_tells_nothing(tmp_path
     assert found.values["k2"].value == pytest.approx(LOCKED["k2"], rel=2e-3)
 
 
-@pytest.mark.parametrize("colour", [0.0, 0.95])
+@pytest.mark.parametrize("colour", [pytest.param(0.0, marks=pytest.mark.long), 0.95])
 def test_blocked_output_lies_within_its_stated_uncertainty(colour: float, tmp_path: Path) -> None:
     """Also where noise lasts for a fifth of a second, beside motions of seconds."""
 
