@@ -28,6 +28,11 @@ def run(*command: str | Path, cwd: Path) -> str:
     return done.stdout
 
 
+def pip_of(installed: Path) -> tuple[str | Path, ...]:
+    """The tests' own pip for an environment without one."""
+    return (sys.executable, "-m", "pip", "--python", installed / "python")
+
+
 @pytest.fixture(scope="module")
 def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
     out = tmp_path_factory.mktemp("wheel")
@@ -40,8 +45,8 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def installed(wheel: Path) -> Path:
     """The folder with the programs of an environment that holds the wheel and requirements.lock, nothing else."""
     folder = wheel.parent / "environment"
-    venv.create(folder, with_pip=True)
-    pip = (folder / "bin" / "python", "-m", "pip", "install", "--quiet", "--no-compile", "--disable-pip-version-check")
+    venv.create(folder)
+    pip = (*pip_of(folder / "bin"), "install", "--quiet", "--no-compile", "--disable-pip-version-check")
     source = ("--no-index", "--find-links", WHEELS) if WHEELS.is_dir() else ()
     run(*pip, *source, "--require-hashes", "-r", ROOT / "requirements.lock", cwd=folder)
     run(*pip, "--no-deps", "--no-index", wheel, cwd=folder)
@@ -60,7 +65,7 @@ def test_the_wheel_holds_the_packages_and_their_data_alone(wheel: Path) -> None:
 
 
 def test_an_empty_environment_generates_what_the_checkout_generates(installed: Path, tmp_path: Path) -> None:
-    assert run(installed / "python", "-m", "pip", "check", cwd=tmp_path) == "No broken requirements found.\n"
+    assert run(*pip_of(installed), "check", cwd=tmp_path) == "No broken requirements found.\n"
     assert "kr270" in run(installed / "counterpoise", "list", cwd=tmp_path)
     run(installed / "counterpoise", "generate", "tilted_two_link", "--out", "by wheel", "--self-test", cwd=tmp_path)
     assert process("generate", "tilted_two_link", "--out", tmp_path / "by checkout").status == 0
