@@ -40,7 +40,7 @@ QUANTITIES = (
 )
 #: Robot and plant: wrist coupling and balancers, a prismatic axis beside a rigid one, a tree.
 PLANTS = [
-    ("kr500", "rigid"),
+    pytest.param("kr500", "rigid", marks=pytest.mark.long),
     ("kr500", "flexible"),
     pytest.param("kr270", "flexible", marks=pytest.mark.long),
     ("scara", "rigid"),

@@ -33,7 +33,7 @@ AT_MOST, WITH_BALANCER = 280, 288
     [
         ("kr500", "report_table_11"),
         pytest.param("kr500", "twin_flexible", marks=pytest.mark.long),
-        ("kr270", "report_table_7"),
+        pytest.param("kr270", "report_table_7", marks=pytest.mark.long),
         pytest.param("kr270", "twin", marks=pytest.mark.long),
     ],
 )

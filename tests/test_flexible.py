@@ -124,7 +124,7 @@ def test_reduced_structure_is_the_chain_with_a_joint_per_spring(elastic: Subject
     check_against_chain(elastic, seed)
 
 
-@pytest.mark.parametrize("count", [1, 3, 5, *(pytest.param(count, marks=pytest.mark.long) for count in (2, 4))])
+@pytest.mark.parametrize("count", [3, *(pytest.param(count, marks=pytest.mark.long) for count in (1, 2, 4, 5))])
 def test_any_subset_of_axes_may_be_elastic(count: int) -> None:
     robot = read(find_robot("kr500"))
     subsets = list(combinations(range(1, 7), count))

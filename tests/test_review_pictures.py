@@ -28,7 +28,9 @@ from tests.reviewed import SVG, files, model, page
 from tests.subject import Subject, close
 
 
-@pytest.mark.parametrize(("name", "angle"), [("kr500", -pi + 1.6293), ("kr270", -pi + 1.6148)])
+@pytest.mark.parametrize(
+    ("name", "angle"), [("kr500", -pi + 1.6293), pytest.param("kr270", -pi + 1.6148, marks=pytest.mark.long)]
+)
 def test_the_dead_centre_stands_where_the_lever_arm_ends(name: str, angle: float) -> None:
     plots = [p for p in page(model(name)).iter(f"{SVG}svg") if p.attrib.get("class") == "plot"]
     assert len(plots) == 3
@@ -45,7 +47,7 @@ def test_the_dead_centre_stands_where_the_lever_arm_ends(name: str, angle: float
         assert low + (at - left) / (right - left) * (high - low) == pytest.approx(degrees(angle), abs=0.05)
 
 
-@pytest.mark.parametrize("name", ["kr500", "kr270"])
+@pytest.mark.parametrize("name", ["kr500", pytest.param("kr270", marks=pytest.mark.long)])
 def test_balancer_curves_are_the_generated_functions_values(name: str) -> None:
     of = model(name)
     pictures = [p for p in page(of).iter(f"{SVG}svg") if p.attrib.get("class") == "plot"]
