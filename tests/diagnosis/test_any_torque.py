@@ -30,7 +30,7 @@ def test_a_soft_contact_is_firmly_no_balancer_and_no_spring(tmp_path: Path) -> N
     assert one.doubts
 
 
-@pytest.mark.parametrize(("stiffness", "hardening"), [(20.0, 2.0), (0.5, 5.0)])
+@pytest.mark.parametrize(("stiffness", "hardening"), [pytest.param(20.0, 2.0, marks=pytest.mark.long), (0.5, 5.0)])
 def test_a_spring_that_is_mostly_its_hardening_may_be_any_torque(
     tmp_path: Path, stiffness: float, hardening: float
 ) -> None:

@@ -32,7 +32,7 @@ def known(folder: Path, part: float) -> Diagnosis:
     return diagnosis_of(sources, regressors, "known")
 
 
-@pytest.mark.parametrize("part", [1.0, -0.5])
+@pytest.mark.parametrize("part", [1.0, pytest.param(-0.5, marks=pytest.mark.long)])
 def test_other_friction_than_the_set_tells_is_told_and_nothing_is_named(part: float, tmp_path: Path) -> None:
     found = known(tmp_path, part)
     assert found.verdict == NOTHING

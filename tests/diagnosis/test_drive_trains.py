@@ -54,7 +54,9 @@ def test_an_elastic_drive_train_gives_way_and_swings(
     assert any(shape["k"] * compliance == pytest.approx(1, rel=0.1) for shape in hypothesis.variants)
 
 
-@pytest.mark.parametrize(("name", "joint"), [(HEAVY, 1), pytest.param(HEAVY, 2, marks=pytest.mark.long), (SCARA, 1)])
+@pytest.mark.parametrize(
+    ("name", "joint"), [*(pytest.param(HEAVY, joint, marks=pytest.mark.long) for joint in (1, 2)), (SCARA, 1)]
+)
 def test_a_link_falls_through_its_gap(name: str, joint: int, known_robots: Callable[[str], Known]) -> None:
     """Looser than the others: each landing depends on the speed of the one before, which the log's motor, sampled and
     filtered, does not tell to the last digit. On some motions a landing goes the other way and leaves 0.85.
@@ -79,6 +81,7 @@ def test_a_link_falls_through_its_gap(name: str, joint: int, known_robots: Calla
     assert hypothesis.variants[int(np.argmax(tried))]["gap"] == pytest.approx(4e-4, rel=0.25)
 
 
+@pytest.mark.long
 def test_no_elastic_drive_train_where_the_file_or_an_encoder_tells(known_robots: Callable[[str], Known]) -> None:
     scene, _, _ = played(known_robots(SCARA), Effect("offset", 1, 0.0), WAY)
     run = replace(scene.sampled.run, others={"qs2": scene.t})

@@ -146,7 +146,7 @@ def test_fine_positions_pretend_nothing(tmp_path: Path) -> None:
         pytest.param(rounded(2 * STEP), 1.0, 0.2, marks=pytest.mark.long),
         pytest.param(noisy(STEP / 4), 0.4, 0.2, marks=pytest.mark.long),
         pytest.param(noisy(STEP / 4), 0.4, 0.07, marks=pytest.mark.long),
-        (noisy(STEP / 2), 0.4, 0.07),
+        pytest.param(noisy(STEP / 2), 0.4, 0.07, marks=pytest.mark.long),
     ],
 )
 def test_an_arm_with_an_ordinary_encoder_is_not_called_elastic(

@@ -65,11 +65,13 @@ def test_another_inertia_of_a_rotor_is_found(tmp_path: Path) -> None:
     assert not found.contradicted
 
 
+@pytest.mark.long
 def test_an_inertia_of_a_rotor_that_is_as_known_is_nothing(tmp_path: Path) -> None:
     regressors, sources = with_rotor(tmp_path, known=LINKS["Ia2"])
     assert diagnosis_of(sources, regressors, "known").verdict == NOTHING
 
 
+@pytest.mark.long
 def test_what_no_motion_tells_from_a_body_is_tentative(tmp_path: Path) -> None:
     regressors, sources = with_rotor(tmp_path, known=1.5)
     found = diagnosis_of(sources, regressors, "known")

@@ -104,7 +104,7 @@ def test_motors_are_late_by_unlike_times(delays: tuple[int, int], joints: tuple[
         assert whole == pytest.approx(1e-3 * delay, abs=3e-4)
 
 
-@pytest.mark.parametrize(("stated", "more"), [(-3, 7), (4, 0)])
+@pytest.mark.parametrize(("stated", "more"), [pytest.param(-3, 7, marks=pytest.mark.long), (4, 0)])
 def test_torques_are_late_by_more_than_is_stated(stated: int, more: int, tmp_path: Path) -> None:
     found = late_by(tmp_path, (4, 4), stated=stated)
     assert [one.hypothesis.key for one in found.findings] == [("torque_delay", 0)] * (more > 0)

@@ -21,6 +21,7 @@ from tests.plant.trajectories.fourier import fourier
 TILT, TOWARDS, MASS = 0.05, 0.6, 30.0
 
 
+@pytest.mark.long
 def test_the_weight_of_a_payload_that_was_found_tilts_as_well(tmp_path: Path) -> None:
     hidden = [Effect("base_tilt", 1, TILT, {"towards": TOWARDS}), Effect("payload", 1, MASS)]
     sources = [str(tmp_path / f"{seed}.csv") for seed in range(1, 4)]

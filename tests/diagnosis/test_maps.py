@@ -56,6 +56,7 @@ def test_noise_is_noise_all_the_same(tmp_path: Path) -> None:
     assert (found.verdict, found.findings) == (NOTHING, ())
 
 
+@pytest.mark.long
 def test_a_load_in_one_run_is_not_noise(tmp_path: Path) -> None:
     found = diagnosis(tmp_path, [nothing, load, nothing, nothing])
     assert found.verdict == UNEXPLAINED

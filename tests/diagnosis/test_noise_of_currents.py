@@ -38,7 +38,9 @@ def test_what_noise_exceeds_a_limit_by_is_not_missing(clipped: bool, tmp_path: P
     assert any(found) == clipped
 
 
-@pytest.mark.parametrize(("memory", "seed"), [(0.045, 1), pytest.param(0.2, 2, marks=pytest.mark.long), (0.2, 6)])
+@pytest.mark.parametrize(
+    ("memory", "seed"), [(0.045, 1), *(pytest.param(0.2, seed, marks=pytest.mark.long) for seed in (2, 6))]
+)
 def test_slow_noise_is_no_saturation(memory: float, seed: int, tmp_path: Path) -> None:
     """It changes as slowly as the torque does, and what of it exceeds a limit is missing in all runs."""
     (tmp_path / "two_links.yaml").write_text(TWO_LINKS)

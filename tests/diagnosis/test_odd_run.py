@@ -32,9 +32,13 @@ def damaged(q: Array, qd: Array) -> Array:
     ("hidden", "told"),
     [
         ([torque(""), loaded, torque("")], "without 2.csv the other runs agree: look for another load"),
-        ([damaged] * 3, "without 1.csv the other runs agree; most of what it keeps is where they do not go, at q 0.3"),
+        pytest.param(
+            [damaged] * 3,
+            "without 1.csv the other runs agree; most of what it keeps is where they do not go, at q 0.3",
+            marks=pytest.mark.long,
+        ),
         ([torque(""), loaded], "1.csv and 2.csv do not agree, each alone is explained: look for another load"),
-        ([bumps(5.0, 0.05)] * 3, None),
+        pytest.param([bumps(5.0, 0.05)] * 3, None, marks=pytest.mark.long),
         ([bumps(5.0, 0.05)] * 2, None),
     ],
 )

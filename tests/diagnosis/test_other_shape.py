@@ -75,7 +75,7 @@ def diagnosed(folder: Path, law: Law, effects: str, known: dict[str, float] | No
     ("joints", "known"),
     [
         ("2", None),
-        ("1, 2", {"Fst2": 5.0}),
+        pytest.param("1, 2", {"Fst2": 5.0}, marks=pytest.mark.long),
         pytest.param("1, 2", None, marks=pytest.mark.long),
         pytest.param("2", {"Fst2": 5.0}, marks=pytest.mark.long),
     ],
@@ -115,9 +115,13 @@ RIGHT = "  - {effect: stribeck_friction, joint: 2, values: {vs: 0.15 rad/s}}\n"
     [
         pytest.param(ripple, ORDER, {"order": 31.0}, marks=pytest.mark.long),
         (with_harmonic, ORDER, {"order": 31.0}),
-        (with_ripple, SLOW + ORDER, {"order": 31.0, "vs": pytest.approx(0.15, rel=0.05)}),
+        pytest.param(
+            with_ripple, SLOW + ORDER, {"order": 31.0, "vs": pytest.approx(0.15, rel=0.05)}, marks=pytest.mark.long
+        ),
         # Of so low a speed the rows hold nothing.
-        (stribeck, SLOW.replace("0.6", "0.002"), {"vs": pytest.approx(0.15, rel=0.05)}),
+        pytest.param(
+            stribeck, SLOW.replace("0.6", "0.002"), {"vs": pytest.approx(0.15, rel=0.05)}, marks=pytest.mark.long
+        ),
         (stribeck, RIGHT, {}),
         (one_way, RIGHT, {}),
     ],

@@ -50,6 +50,7 @@ def test_a_joint_that_is_patched_is_unexplained(tmp_path: Path, monkeypatch: pyt
     assert "The findings below are: viscous friction that depends on the direction" in page
 
 
+@pytest.mark.long
 def test_the_last_doubts_count(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """What is doubted because rows are few, or because a value is contradicted, is not firm either."""
     regressors, sources = recorded(tmp_path, [torque("stribeck asymmetry")] * 3)

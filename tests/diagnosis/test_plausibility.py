@@ -59,7 +59,7 @@ def test_the_sign_of_a_run_that_tests_is_looked_at_too(dry: bool, tmp_path: Path
         identify(read(tmp_path / "arm.yaml"), fitted, test)
 
 
-@pytest.mark.parametrize("factor", [0.5, 2.0])
+@pytest.mark.parametrize("factor", [pytest.param(0.5, marks=pytest.mark.long), 2.0])
 def test_a_run_that_tests_with_torques_of_another_size_is_no_mistake(factor: float, tmp_path: Path) -> None:
     diagnose(tmp_path, [1.0, 1.0, factor])
     fitted, test = [[tmp_path / name] for name in ("1.csv", "3.csv")]

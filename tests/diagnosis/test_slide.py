@@ -96,6 +96,7 @@ def bristles(xs: float) -> Dry:
     return of
 
 
+@pytest.mark.long
 def test_short_ways_show_presliding_over_shorter_ones(tmp_path: Path) -> None:
     xs = 1e-4
     found = diagnosis(tmp_path, bristles(xs), 0.0, swaying)

@@ -75,6 +75,7 @@ def test_another_payload_than_the_stated_one_is_found_and_played(tmp_path: Path)
         assert new.fit.values[name] == pytest.approx(TRUTH[name], rel=0.02), name
 
 
+@pytest.mark.long
 def test_beside_a_free_fit_gains_may_be_wrong_as_well(tmp_path: Path) -> None:
     regressors, sources = with_masses(tmp_path, [(0.0, 0.0), (MASS, STATED), (0.0, 0.0), (MASS, STATED)])
     found = diagnosis_of(sources, regressors)
@@ -86,7 +87,7 @@ def test_beside_a_free_fit_gains_may_be_wrong_as_well(tmp_path: Path) -> None:
     assert mass.value == pytest.approx(MASS - STATED, abs=3 * mass.std)
 
 
-@pytest.mark.parametrize("known", [None, "known"])
+@pytest.mark.parametrize("known", [pytest.param(None, marks=pytest.mark.long), "known"])
 def test_a_payload_that_is_as_stated_is_nothing(known: str | None, tmp_path: Path) -> None:
     regressors, sources = with_masses(tmp_path, [(0.0, 0.0), (MASS, MASS), (0.0, 0.0)])
     assert diagnosis_of(sources, regressors, known).verdict == NOTHING
@@ -115,6 +116,7 @@ def test_what_is_found_adds_to_the_payload_of_that_mass_alone() -> None:
     assert corrected(stated, {}) == stated
 
 
+@pytest.mark.long
 def test_runs_with_another_payload_are_played_with_what_they_state(tmp_path: Path) -> None:
     regressors, sources = with_masses(tmp_path, [(0.0, 0.0), (MASS, STATED), (1.0, 1.0), (MASS, STATED)])
     found = diagnosis_of(sources, regressors, "known")

@@ -54,7 +54,9 @@ def diagnosed(folder: Path, text: str) -> Diagnosis:
     return diagnosis_of(wrong_logs(folder), Regressors(read(path)), "known")
 
 
-@pytest.mark.parametrize(("wrong", "stated"), [("torque_gain", 0.7), ("torque_drift", 0.1)])
+@pytest.mark.parametrize(
+    ("wrong", "stated"), [("torque_gain", 0.7), pytest.param("torque_drift", 0.1, marks=pytest.mark.long)]
+)
 def test_another_value_than_the_stated_one_is_found(wrong: str, stated: float, tmp_path: Path) -> None:
     text = stating(**(RIGHT | {wrong: stated}))
     found = diagnosed(tmp_path, text)
@@ -69,6 +71,7 @@ def test_another_value_than_the_stated_one_is_found(wrong: str, stated: float, t
     assert written == pytest.approx([GAIN, DRIFT], rel=0.02)
 
 
+@pytest.mark.long
 def test_another_offset_than_the_stated_one_is_one_of_what_may_be(tmp_path: Path) -> None:
     """Of a horizontal axis that stands on the base, which may be tilted as well."""
     (one,) = diagnosed(tmp_path, stating(**(RIGHT | {"position_offset": 0.1}))).findings

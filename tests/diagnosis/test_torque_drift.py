@@ -147,6 +147,7 @@ def test_a_drift_by_heat_is_found_and_written_as_it_is(tmp_path: Path) -> None:
     assert left < 0.05
 
 
+@pytest.mark.long
 def test_how_warm_a_drive_was_when_a_run_began_is_of_that_run_alone(tmp_path: Path) -> None:
     of, warm = two_links(tmp_path), (0.8, 0.0, 0.4)
     runs = [ready(heated(tmp_path, seed, 0.3, w), of) for seed, w in enumerate(warm, 1)]

@@ -14,7 +14,7 @@ from tests.recorded import Array, parameters_text
 VISCOUS, DRY = -6.0, -3.0
 
 
-@pytest.mark.parametrize("time", [12.0, 25.0, 80.0])
+@pytest.mark.parametrize("time", [25.0, *(pytest.param(time, marks=pytest.mark.long) for time in (12.0, 80.0))])
 def test_the_time_of_warming_up_is_found(time: float, tmp_path: Path) -> None:
     def warming(q: Array, qd: Array) -> Array:
         warmth = 1 - np.exp(-0.01 * np.arange(len(q)) / time)
@@ -33,7 +33,7 @@ def test_the_time_of_warming_up_is_found(time: float, tmp_path: Path) -> None:
         assert value.value == pytest.approx(true, abs=4 * value.std)
 
 
-@pytest.mark.parametrize("cold", [0.0, 1.5])
+@pytest.mark.parametrize("cold", [pytest.param(0.0, marks=pytest.mark.long), 1.5])
 def test_friction_that_is_known_of_a_warm_drive_is_more_all_along(cold: float, tmp_path: Path) -> None:
     """It changes from the file's values, or comes down from ``cold`` times as much beside them, of which most stays."""
 
