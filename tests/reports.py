@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
@@ -60,41 +60,65 @@ def lagging(folder: Path) -> LinkEncoders:
 
 
 def pages(folder: Path) -> dict[str, bytes]:
-    """A report of every one of ``KINDS`` by its name."""
-    subject = identified(folder)
-    links = lagging(folder)
-    locked = locked_output(stiff_arm.ROBOT, 2, [stiff_arm.blocked(folder / "blocked.csv")])
-    return {
-        "identify": identify_report.report(subject.found, subject.consistent),
-        "gains": gains_report.report(found(lifter(folder), folder)),
-        "steps": stiffness_report.report(stiff_arm.steps(folder)),
-        "locked": stiffness_report.report(locked),
-        "links": stiffness_report.report(links),
-        "compare": compare_report.report(compare(_side("a", 1.0), _side("b", 1.1))),
-        "diagnose": case(folder, "stribeck").page,
-        **_of_commands(folder / "commands"),
-    }
+    """A report of every one of ``KINDS`` by its name, each made in a folder of its own."""
+    return {kind: report_of(kind, folder / kind) for kind in KINDS}
 
 
-def _of_commands(folder: Path) -> dict[str, bytes]:
-    """What excite and output-error leave of two simulated links."""
+def report_of(kind: str, folder: Path) -> bytes:
+    """The report of a kind, of what is recorded into a new ``folder``."""
     folder.mkdir()
-    robot, run = folder / "two_links.yaml", folder / "A.csv"
+    return _MADE[kind](folder)
+
+
+def _identify(folder: Path) -> bytes:
+    subject = identified(folder)
+    return identify_report.report(subject.found, subject.consistent)
+
+
+def _locked(folder: Path) -> bytes:
+    return stiffness_report.report(locked_output(stiff_arm.ROBOT, 2, [stiff_arm.blocked(folder / "blocked.csv")]))
+
+
+def _excite(folder: Path) -> bytes:
+    return _of_command("excite", folder, "--evaluations", "256", "--parameters", "twin")
+
+
+def _output_error(folder: Path) -> bytes:
+    run = folder / "A.csv"
+    few = ("--duration", "6", "--noise", "0.3", "--parameters", "twin")
+    assert main(["simulate", str(_twin(folder)), *few, "--out", str(run)]) == 0
+    return _of_command("output-error", folder, "--data", str(run), "--test", f"{run}@1:5", "--starts", "2")
+
+
+def _of_command(name: str, folder: Path, *words: str) -> bytes:
+    """What a command leaves of two simulated links."""
+    out = folder / "out"
+    assert main([name, str(_twin(folder)), *words, "--out", str(out)]) == 0
+    return (out / "report.html").read_bytes()
+
+
+def _twin(folder: Path) -> Path:
+    robot = folder / "two_links.yaml"
     robot.write_text(twin_text())
-    few = ["--duration", "6", "--noise", "0.3", "--parameters", "twin"]
-    made = {
-        "excite": ["excite", robot, "--evaluations", "256", "--parameters", "twin"],
-        "output_error": ["output-error", robot, "--data", run, "--test", f"{run}@1:5", "--starts", "2"],
-    }
-    assert main(["simulate", str(robot), *few, "--out", str(run)]) == 0
-    for kind, words in made.items():
-        assert main([*map(str, words), "--out", str(folder / kind)]) == 0
-    return {kind: (folder / kind / "report.html").read_bytes() for kind in made}
+    return robot
 
 
 def _side(name: str, factor: float) -> Parameters:
     values = {one: Known(factor * value, 0.02 * abs(value), "1") for one, value in TRUTH.items()}
     return Parameters(name, f"{name}.json", "0" * 64, values | {f"only_{name}": Known(None, None, "1")})
+
+
+_MADE: Mapping[str, Callable[[Path], bytes]] = {
+    "identify": _identify,
+    "gains": lambda folder: gains_report.report(found(lifter(folder), folder)),
+    "steps": lambda folder: stiffness_report.report(stiff_arm.steps(folder)),
+    "locked": _locked,
+    "links": lambda folder: stiffness_report.report(lagging(folder)),
+    "compare": lambda folder: compare_report.report(compare(_side("a", 1.0), _side("b", 1.1))),
+    "diagnose": lambda folder: case(folder, "stribeck").page,
+    "excite": _excite,
+    "output_error": _output_error,
+}
 
 
 class Page(HTMLParser):

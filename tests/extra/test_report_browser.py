@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
+from functools import cache
 from html import unescape
 from pathlib import Path
 from typing import Any
@@ -11,7 +13,7 @@ import numpy as np
 import pytest
 
 from tests.extra.browser import document, visit
-from tests.reports import KINDS, pages
+from tests.reports import KINDS, report_of
 
 #: What make test-extra looks at, and what only make test-long does.
 FIRST = ("identify", "diagnose")
@@ -45,8 +47,9 @@ document.body.append(holder);
 
 
 @pytest.fixture(scope="module")
-def written(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
-    return pages(tmp_path_factory.mktemp("reports"))
+def written(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], bytes]:
+    """The report of a kind, made once."""
+    return cache(lambda kind: report_of(kind, tmp_path_factory.mktemp("reports") / kind))
 
 
 def measured(page: bytes, folder: Path, width: int) -> dict[str, Any]:
@@ -58,12 +61,12 @@ def measured(page: bytes, folder: Path, width: int) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("kind", [*FIRST, *(pytest.param(kind, marks=pytest.mark.long) for kind in FURTHER)])
-def test_a_report_is_quiet_and_its_charts_are_drawn(written: dict[str, bytes], kind: str, tmp_path: Path) -> None:
-    told = measured(written[kind], tmp_path, 1440)
+def test_a_report_is_quiet_and_its_charts_are_drawn(written: Callable[[str], bytes], kind: str, tmp_path: Path) -> None:
+    told = measured(written(kind), tmp_path, 1440)
     assert told["undrawn"] == []
     assert told["width"] <= told["window"]
     path = tmp_path / "report.html"
-    path.write_bytes(written[kind])
+    path.write_bytes(written(kind))
     seen = visit(path, tmp_path, 1440, max(bottom for *_, bottom in told["boxes"]) + 50)
     assert seen.console == ()
     assert seen.requests == ()
@@ -74,7 +77,7 @@ def test_a_report_is_quiet_and_its_charts_are_drawn(written: dict[str, bytes], k
         assert len(np.unique(region, axis=0)) > 12
 
 
-def test_a_report_fits_a_narrow_screen(written: dict[str, bytes], tmp_path: Path) -> None:
-    told = measured(written["identify"], tmp_path, 500)
+def test_a_report_fits_a_narrow_screen(written: Callable[[str], bytes], tmp_path: Path) -> None:
+    told = measured(written("identify"), tmp_path, 500)
     assert told["width"] <= told["window"]
     assert told["undrawn"] == []
