@@ -42,11 +42,8 @@ pytest.register_assert_rewrite("tests.core_quantities", "tests.regressor_rank")
 
 FILES = {path.stem: path for path in robots()}
 EVERY = "every_effect"
-#: Further arms of turning joints alone beside the KR500, which make test-long alone derives and compiles.
-FURTHER = (
-    *("kr270", "kr270_calibrated", "kr270_table5", "kr300", "kr500_table5"),
-    *("lbr_iiwa14", "puma560", "tx40"),
-)
+#: Further arms of six turning joints beside the two Kukas, which make test-long alone derives and compiles.
+FURTHER = ("kr270_calibrated", "kr270_table5", "kr300", "kr500_table5", "puma560", "tx40")
 ALL = [*(pytest.param(name, marks=pytest.mark.long) if name in FURTHER else name for name in FILES), EVERY]
 CHAINS = {f"chain{seed}": seed for seed in range(6)}
 

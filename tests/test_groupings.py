@@ -109,7 +109,7 @@ def test_counts_of_the_reports_robots(name: str, all_effects: int) -> None:
     assert count(robot, robot.effects) == all_effects
 
 
-@pytest.mark.parametrize("name", [pytest.param("kr270", marks=pytest.mark.long), "kr500"])
+@pytest.mark.parametrize("name", ["kr270", "kr500"])
 def test_counts_of_the_12_joint_chain(name: str) -> None:
     twelve, rigid = read(find_robot(f"{name}_table5")), read(find_robot(name))
     for robot in (twelve, elastic_chain(rigid).robot):
@@ -119,7 +119,7 @@ def test_counts_of_the_12_joint_chain(name: str) -> None:
         assert count(robot, on_all_joints(robot.joints, "rotor_inertia")) == 82
 
 
-@pytest.mark.parametrize("name", [pytest.param("kr270", marks=pytest.mark.long), "kr500"])
+@pytest.mark.parametrize("name", ["kr270", "kr500"])
 def test_reduced_flexible_regressor_has_66_columns(name: str) -> None:
     robot = replace(read(find_robot(name)), effects=())
     model = derive(robot, ("flexible_regressor",))

@@ -83,7 +83,7 @@ def _above(robot: Robot, limits: dict[str, int]) -> dict[str, int]:
     return {f: functions[f].count.total for f, limit in limits.items() if functions[f].count.total > limit}
 
 
-@pytest.mark.parametrize("name", ["kr500", pytest.param("kr270", marks=pytest.mark.long)])
+@pytest.mark.parametrize("name", ["kr500", "kr270"])
 def test_operation_counts(name: str) -> None:
     robot = _robot(name)
     assert _above(robot, AT_MOST) == {}
