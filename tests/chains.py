@@ -198,7 +198,11 @@ def random_robot(draw: Random, most: int = 5) -> Robot:
         drives=_random_drives(draw, len(moving)),
         flexible=[j.number for j in moving if draw.random() < 0.5],
     )
-    return replace(made, effects=(*made.effects, *more_effects(draw, made, 0.15)))
+    made = replace(made, effects=(*made.effects, *more_effects(draw, made, 0.15)))
+    if not any(use.effect == "spring_balancer" for use in made.effects):
+        return made
+    # With some lengths the torque of a spring's stiffness is that of a weight, which is refused where they are symbols.
+    return replace(made, lengths=tuple(replace(one, symbolic=False) for one in made.lengths))
 
 
 def random_chain(draw: Random, count: int) -> Robot:

@@ -42,7 +42,8 @@ pytest.register_assert_rewrite("tests.core_quantities", "tests.regressor_rank")
 
 FILES = {path.stem: path for path in robots()}
 EVERY = "every_effect"
-#: Further arms of six turning joints beside the two Kukas, which make test-long alone derives and compiles.
+#: Robots whose generic tests are of make test-long: further arms of six turning joints, and the chains of twelve joints
+#: of report Table 5.
 FURTHER = ("kr270_calibrated", "kr270_table5", "kr300", "kr500_table5", "puma560", "tx40")
 ALL = [*(pytest.param(name, marks=pytest.mark.long) if name in FURTHER else name for name in FILES), EVERY]
 CHAINS = {f"chain{seed}": seed for seed in range(6)}
@@ -67,7 +68,7 @@ def _chain(name: str) -> Subject:
 
 @pytest.fixture(scope="session", autouse=True)
 def _libraries(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """Simulated robots that many tests share are compiled by one of them, whichever process it is of."""
+    """Robots that many tests simulate or diagnose are compiled by one of them, whichever process it is of."""
     own = tmp_path_factory.getbasetemp()
     kept = (own.parent if "PYTEST_XDIST_WORKER" in os.environ else own) / "libraries"
     kept.mkdir(exist_ok=True)

@@ -1,4 +1,4 @@
-"""Libraries of simulated robots, compiled once for all tests of a run."""
+"""Libraries of robots that tests simulate or diagnose, compiled once for all tests of a run."""
 
 from __future__ import annotations
 
@@ -23,6 +23,8 @@ def built_once(kept: Path) -> Callable[[Path, str], Path]:
         key = repr([os.environ.get("CC"), name, *texts])
         known, library = kept / f"{sha256(key.encode()).hexdigest()}.so", folder / library_of(name)
         if known.exists():
+            # One that is loaded stays as it is.
+            library.unlink(missing_ok=True)
             shutil.copy(known, library)
         else:
             build_library(folder, name)

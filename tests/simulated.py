@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import hashlib
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -72,15 +71,15 @@ Make = Callable[..., "Simulation"]
 
 
 def maker(folder: Path) -> Make:
-    """Makes simulations below ``folder``; those of one model with the same flags share what is compiled."""
-    models: list[Model] = []
+    """Makes simulations in folders of their own below ``folder``; those of one model with the same flags share one."""
+    kept: dict[tuple[Model, tuple[str, ...]], Bound] = {}
 
     def made(of: Subject, plant: str = "rigid", *flags: str) -> Simulation:
-        if not any(one is of.model for one in models):
-            models.append(of.model)
-        place = folder / str(next(k for k, one in enumerate(models) if one is of.model))
-        place.mkdir(exist_ok=True)
-        return Simulation(of.model, place, of.parameters, plant, ("-O1", *flags))
+        if (of.model, flags) not in kept:
+            place = folder / str(len(list(folder.iterdir())))
+            place.mkdir()
+            kept[of.model, flags] = compiled(of.model, place, ("-O1", *flags))
+        return Simulation(of.model, kept[of.model, flags], of.parameters, plant)
 
     return made
 
@@ -90,6 +89,17 @@ def emit(model: Model, folder: Path, methods: Sequence[Method] = METHODS) -> Pat
     write(folder / "c", c_backend.library(model, ()))
     write(folder / "simulation", simulation_backend.sources(model, methods))
     return folder
+
+
+def compiled(model: Model, folder: Path, flags: Sequence[str], methods: Sequence[Method] = METHODS) -> Bound:
+    """Library and simulation of ``model``, written to ``folder`` and compiled."""
+    name, include = model.robot.name, f"-I{folder / 'c'}"
+    emit(model, folder, methods)
+    library = folder / f"lib{name}{len(list(folder.iterdir()))}.so"
+    sources = [folder / "c" / f"{name}.c", folder / "simulation" / f"{name}_simulation.c"]
+    run(["gcc", "-std=c99", *SHARED, *flags, include, *sources, "-o", library, "-lm"])
+    header = folder / "simulation" / f"{name}_simulation.h"
+    return Bound(name, library, header, ["-D__STDC_HOSTED__=1", *flags, include])
 
 
 @dataclass(frozen=True)
@@ -115,58 +125,39 @@ class Run:
     seconds: float
 
 
-@cache
-def _bound(name: str, library: Path, header: Path, flags: Sequence[str]) -> Bound:
-    return Bound(name, library, header, flags)
-
-
 @dataclass
 class Simulation:
-    """The generated simulation of one robot: ``plant`` is rigid or flexible, ``size`` its number of coordinates."""
+    """The compiled simulation of one robot: ``plant`` is rigid or flexible, ``size`` its number of coordinates."""
 
     model: Model
-    folder: Path
+    code: Bound
     parameters: Vector
     plant: str = "rigid"
-    flags: Sequence[str] = ("-O2",)
-    methods: Sequence[Method] = METHODS
-    _c: Bound = field(init=False)
 
     def __post_init__(self) -> None:
-        """Compiles, once in a folder, and binds."""
-        self.name = self.model.robot.name
-        self.macro = self.name.upper()
+        """Prepares the parameters."""
+        self.macro = self.model.robot.name.upper()
         self.n = self.model.dof
         self.size = self.n if self.plant == "rigid" else self.model.flexible_dof
-        names = [method.name for method in self.methods]
-        key = hashlib.sha256(repr((*names, *self.flags)).encode()).hexdigest()[:12]
-        library = self.folder / f"lib{self.name}{key}.so"
-        sources = [self.folder / "c" / f"{self.name}.c", self.folder / "simulation" / f"{self.name}_simulation.c"]
-        include = f"-I{self.folder / 'c'}"
-        if not library.exists():
-            emit(self.model, self.folder, self.methods)
-            run(["gcc", "-std=c99", *SHARED, *self.flags, include, *sources, "-o", library, "-lm"])
-        header = self.folder / "simulation" / f"{self.name}_simulation.h"
-        self._c = _bound(self.name, library, header, ("-D__STDC_HOSTED__=1", *self.flags, include))
-        self.real = np.dtype(np.float32 if any("USE_FLOAT" in flag for flag in self.flags) else np.float64)
-        self.prepared = self._c.new("prepared *")
-        params = self._c.new("params *")
+        self.real = np.dtype(f"f{self.code.ffi.sizeof(f'{self.model.robot.name}_real')}")
+        self.prepared = self.code.new("prepared *")
+        params = self.code.new("params *")
         params.value = [float(value) for value in self.parameters]
-        self._c.call("prepare", params, self.prepared)
+        self.code.call("prepare", params, self.prepared)
 
     def start(self, q: ArrayLike, qd: ArrayLike) -> Any:
         """A new state."""
-        state = self._c.new(f"{self.plant}_state *")
-        self._c.call(f"{self.plant}_start", self.prepared, self._c.array(q), self._c.array(qd), state)
+        state = self.code.new(f"{self.plant}_state *")
+        self.code.call(f"{self.plant}_start", self.prepared, self.code.array(q), self.code.array(qd), state)
         return state
 
     def integration(self, method: str = "RK4", steps: int = 1, width: ArrayLike | None = None) -> Any:
         """How to integrate; without a width with sign friction."""
-        result = self._c.new("integration *")
-        result.method = getattr(self._c.library, f"{self.macro}_METHOD_{method}")
+        result = self.code.new("integration *")
+        result.method = getattr(self.code.library, f"{self.macro}_METHOD_{method}")
         result.steps = steps
         if width is not None:
-            self._kept = self._c.array(np.broadcast_to(np.asarray(width, float), self.size))
+            self._kept = self.code.array(np.broadcast_to(np.asarray(width, float), self.size))
             result.width = self._kept
         return result
 
@@ -174,19 +165,23 @@ class Simulation:
         self, state: Any, integration: Any, seconds: float, tau: ArrayLike, tau_ext: ArrayLike | None = None
     ) -> Any:
         """Moves ``state`` on and returns it."""
-        others = self._c.ffi.NULL if tau_ext is None else self._c.array(tau_ext)
-        self._c.call(f"{self.plant}_advance", self.prepared, integration, seconds, self._c.array(tau), others, state)
+        others = self.code.ffi.NULL if tau_ext is None else self.code.array(tau_ext)
+        self.code.call(
+            f"{self.plant}_advance", self.prepared, integration, seconds, self.code.array(tau), others, state
+        )
         return state
 
     def control(
         self, gains: Gains, z: ArrayLike, wanted: Sequence[ArrayLike | None], q: ArrayLike, qd: ArrayLike
     ) -> tuple[Vector, Vector]:
         """Torques and integrals after one sample; ``wanted`` is q_ref, qd_ref, tau_ref."""
-        memory, tau = self._c.new("controller_state *"), self._c.array(np.zeros(self.n))
+        memory, tau = self.code.new("controller_state *"), self.code.array(np.zeros(self.n))
         memory.z = list(map(float, np.asarray(z)))
-        given = [self._c.ffi.NULL if one is None else self._c.array(one) for one in wanted]
+        given = [self.code.ffi.NULL if one is None else self.code.array(one) for one in wanted]
         controller = self._controller(gains)
-        self._c.call("control", self.prepared, controller, *given, self._c.array(q), self._c.array(qd), memory, tau)
+        self.code.call(
+            "control", self.prepared, controller, *given, self.code.array(q), self.code.array(qd), memory, tau
+        )
         return np.array(list(tau)), np.array(list(memory.z))
 
     def simulate(
@@ -194,20 +189,20 @@ class Simulation:
     ) -> Run:
         """The closed loop over all rows of ``reference`` (q, and qd, tau, tau_ext if given)."""
         rows = len(np.asarray(reference["q"]))
-        wanted = self._c.new("reference *")
+        wanted = self.code.new("reference *")
         arrays = {name: np.ascontiguousarray(value, self.real) for name, value in reference.items()}
         wanted.samples = rows
         for name, value in arrays.items():
-            setattr(wanted, name, self._c.pointer(value))
+            setattr(wanted, name, self.code.pointer(value))
         logs = {"q": self.size, "qd": self.size, "tau": self.n}
         written = {name: np.full((rows + 1, size), np.nan, self.real) for name, size in logs.items()}
-        target = self._c.new("run_log *")
+        target = self.code.new("run_log *")
         for name, value in written.items() if log else ():
-            setattr(target, name, self._c.pointer(value))
-        memory = self._c.new("controller_state *")
+            setattr(target, name, self.code.pointer(value))
+        memory = self.code.new("controller_state *")
         controller = self._controller(gains)
         start = time.process_time()
-        done = self._c.call(
+        done = self.code.call(
             f"{self.plant}_simulate", self.prepared, controller, integration, wanted, memory, state, target
         )
         elapsed = time.process_time() - start
@@ -224,23 +219,27 @@ class Simulation:
         """d/dt of [q; qd] with torques held, by the library's model with smooth friction."""
         others = np.zeros(self.n) if tau_ext is None else np.asarray(tau_ext)
         flexible = self.plant == "flexible"
-        arrays = [self._c.array(tau), self._c.array(others)] if flexible else [self._c.array(np.asarray(tau) + others)]
+        arrays = (
+            [self.code.array(tau), self.code.array(others)] if flexible else [self.code.array(np.asarray(tau) + others)]
+        )
         prefix = "flexible_" if self.plant == "flexible" else ""
-        function = getattr(self._c.library, f"{self.name}_{prefix}direct_dynamics_smooth")
-        widths, qdd = self._c.array(np.full(self.size, width)), self._c.array(np.zeros(self.size))
+        function = getattr(self.code.library, f"{self.code.name}_{prefix}direct_dynamics_smooth")
+        widths, qdd = self.code.array(np.full(self.size, width)), self.code.array(np.zeros(self.size))
 
         def rate(_: float, x: Vector) -> Vector:
-            function(self.prepared, self._c.array(x[: self.size]), self._c.array(x[self.size :]), *arrays, widths, qdd)
+            function(
+                self.prepared, self.code.array(x[: self.size]), self.code.array(x[self.size :]), *arrays, widths, qdd
+            )
             return np.concatenate([x[self.size :], list(qdd)])
 
         return rate
 
     def constant(self, name: str) -> int:
         """A constant of the header's enumerations."""
-        return int(getattr(self._c.library, f"{self.macro}_{name}"))
+        return int(getattr(self.code.library, f"{self.macro}_{name}"))
 
     def _controller(self, gains: Gains) -> Any:
-        result = self._c.new("controller *")
+        result = self.code.new("controller *")
         result.period = gains.period
         for name in ("kp", "kv", "ki", "limit"):
             setattr(result, name, np.broadcast_to(np.asarray(getattr(gains, name), float), self.n).tolist())

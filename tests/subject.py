@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 
 import numpy as np
 import sympy
@@ -16,7 +16,9 @@ from generator.reference import sample
 from generator.reference.matter import INERTIAL
 from generator.reference.quantities import Reference
 from generator.reference.rigid import Rigid, rigid
+from generator.resources import find_robot
 from generator.robot.description import Robot
+from generator.robot.readers import read
 from generator.symbolic.function import Function, Signal
 from generator.symbolic.interpret import evaluate
 from generator.symbolic.model import Model
@@ -54,6 +56,12 @@ LOADED = tuple(p.stem for effect in library().values() if "load" in effect.needs
 FRICTION = tuple(p.stem for effect in library().values() if effect.dissipates for p in effect.parameters)
 #: Elongation of an elastic drive train [rad or m].
 _ELONGATION = 0.1
+
+
+@cache
+def bare(name: str) -> Model:
+    """A robot file's model without quantities, which groupings do not need."""
+    return derive(read(find_robot(name)), ())
 
 
 @dataclass(frozen=True)

@@ -28,8 +28,8 @@ DOCUMENTS = ["README.md", *sorted(str(path.relative_to(ROOT)) for path in (ROOT 
 FOLDERS = (
     "benchmarks", "docs", "generated", "generator", "identification", "recipes", "robots", "templates", "tests"
 )  # fmt: skip
-#: Sessions of things that other tests hold.
-FURTHER = ("docs/batch.md", "docs/output_error.md", "docs/simulation.md")
+#: Longer sessions, whose commands and programs other tests run; what is printed is held by make test-long.
+FURTHER = ("docs/batch.md", "docs/output_error.md")
 
 _LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 _CODE = re.compile(r"`([^`]+)`")

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from decimal import Decimal
-from functools import cache
 from random import Random
 
 import numpy as np
@@ -22,14 +21,9 @@ from generator.symbolic.model import Model
 from tests.chains import DRIVE_TRAIN, elastic_chain, on_all_joints, random_anthropomorphic, random_robot
 from tests.printed_groupings import SECTION_5_1, SECTION_6_1, SYMBOLIC, in_symbols, printed
 from tests.regressor_rank import check_grouping, rank
-from tests.subject import Subject, subject
+from tests.subject import Subject, bare, subject
 
 IN_SYMBOLS = in_symbols(SYMBOLIC)
-
-
-@cache
-def of_file(name: str) -> Model:
-    return derive(read(find_robot(name)), ())
 
 
 def grouped(model: Model) -> dict[str, dict[str, float]]:
@@ -44,7 +38,7 @@ def grouped(model: Model) -> dict[str, dict[str, float]]:
 def test_the_17_groupings_are_the_printed_ones(name: str, text: str) -> None:
     expected = printed(text)
     assert len(expected) == 17
-    found = grouped(of_file(name))
+    found = grouped(bare(name))
     assert found.keys() == expected.keys()
     for base, terms in expected.items():
         # The print keeps five digits and drops trailing zeros; 1.05365 has six.
@@ -53,7 +47,7 @@ def test_the_17_groupings_are_the_printed_ones(name: str, text: str) -> None:
 
 
 def test_the_nominal_lengths_do_not_reproduce_the_kr270_print() -> None:
-    found = grouped(of_file("kr270"))
+    found = grouped(bare("kr270"))
     expected = printed(SECTION_5_1)
     assert {base: terms.keys() for base, terms in found.items()} == {b: t.keys() for b, t in expected.items()}
     assert Decimal(f"{found['ZZ1R']['M2']:.5g}") != expected["ZZ1R"]["M2"]
@@ -61,7 +55,7 @@ def test_the_nominal_lengths_do_not_reproduce_the_kr270_print() -> None:
 
 @pytest.mark.parametrize("name", ["kr270", "kr270_calibrated", "kr500"])
 def test_groupings_in_symbols(name: str) -> None:
-    model = of_file(name)
+    model = bare(name)
     found = {base.name: base.terms for base in model.grouping.base if len(base.terms) > 1}
     assert found.keys() == IN_SYMBOLS.keys()
     symbols = {n: sympy.Symbol(n, real=True) for n in ("d2", "d3", "d4", "rl1", "rl4", "rl6")}
@@ -73,7 +67,7 @@ def test_groupings_in_symbols(name: str) -> None:
 
 
 def test_what_stands_alone_keeps_its_name() -> None:
-    model = of_file("kr500")
+    model = bare("kr500")
     alone = [base.name for base in model.grouping.base if len(base.terms) == 1]
     inertial = [name for name in alone if name[0] in "XYZM"]
     assert inertial == [
@@ -84,7 +78,7 @@ def test_what_stands_alone_keeps_its_name() -> None:
 
 
 def test_what_has_no_effect_is_named() -> None:
-    eliminated = of_file("kr500").grouping.eliminated
+    eliminated = bare("kr500").grouping.eliminated
     without_effect = [one.name for one in eliminated if not one.into]
     assert without_effect == ["XX1", "XY1", "XZ1", "YY1", "YZ1", "MX1", "MY1", "MZ1", "M1", "MZ2"]
 

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from functools import cache
 from math import floor, log10, pi
 
 import numpy as np
 import pytest
 
-from generator.derivation import derive
-from generator.resources import find_robot
 from generator.review.counts import ladder
 from generator.review.formula import (
     Name,
@@ -20,26 +17,19 @@ from generator.review.groupings import equations
 from generator.review.tex import escape
 from generator.robot.description import REVOLUTE
 from generator.robot.parameters import INERTIAL_STEMS
-from generator.robot.readers import read
 from generator.symbolic.model import Model
 from tests.chains import joint, robot
 from tests.printed_groupings import SECTION_5_1, SECTION_6_1, SYMBOLIC
 from tests.reviewed import block, files, listed, parsed, state, value
-from tests.subject import Subject
+from tests.subject import Subject, bare
 
 #: The lists of report sections 5.1 and 6.1, as printed.
 REPORT = {"kr270_calibrated": SECTION_5_1, "kr500": SECTION_6_1}
 
 
-@cache
-def grouped(name: str) -> Model:
-    """A robot file without quantities, which groupings do not need."""
-    return derive(read(find_robot(name)), ())
-
-
 @pytest.mark.parametrize("name", REPORT)
 def test_numeric_groupings_are_those_of_the_report(name: str) -> None:
-    lines = block(files(grouped(name))["groupings.md"], "Numeric")
+    lines = block(files(bare(name))["groupings.md"], "Numeric")
     printed = listed(REPORT[name])
     assert len(lines) == len(printed) == 17
     for line, expected in zip(lines, printed, strict=True):
@@ -55,7 +45,7 @@ def test_numeric_groupings_are_those_of_the_report(name: str) -> None:
 
 @pytest.mark.parametrize("name", ["kr500", "kr270", pytest.param("kr270_calibrated", marks=pytest.mark.long)])
 def test_symbolic_groupings_of_both_robots(name: str) -> None:
-    assert block(files(grouped(name))["groupings.md"], "Symbolic") == listed(SYMBOLIC)
+    assert block(files(bare(name))["groupings.md"], "Symbolic") == listed(SYMBOLIC)
 
 
 def test_groupings_mean_what_they_say(arm: Subject) -> None:
@@ -95,7 +85,7 @@ def test_the_parameter_vector_is_listed_in_its_order(arm: Subject) -> None:
     ],
 )
 def test_counts_of_the_report(name: str, totals: list[int]) -> None:
-    assert [stage.total for stage in ladder(grouped(name))] == totals
+    assert [stage.total for stage in ladder(bare(name))] == totals
 
 
 def test_counts_are_ranks_of_the_regressor(arm: Subject) -> None:

@@ -208,7 +208,7 @@ def test_a_run_that_diverges_ends(flag: str, make: Make) -> None:
 
 
 @pytest.mark.parametrize("precision", ["", "USE_FLOAT"])
-@pytest.mark.parametrize("name", ["kr500", pytest.param("kr270", marks=pytest.mark.long), "scara", "tree_two_arms"])
+@pytest.mark.parametrize("name", ["kr500", "kr270", "scara", "tree_two_arms"])
 def test_strictly_compiled_in_both_precisions(name: str, precision: str, tmp_path: Path) -> None:
     emit(arm(name).model, tmp_path)
     define = [f"-D{name.upper()}_{precision}"] if precision else []

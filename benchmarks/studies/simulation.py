@@ -26,7 +26,7 @@ from generator.backends import casadi as casadi_backend
 from generator.backends.printing.runge_kutta import METHODS, Method
 from generator.symbolic.interpret import evaluate
 from tests.compiled import write
-from tests.simulated import Simulation
+from tests.simulated import Simulation, compiled
 
 TITLE = "Simulation of a flexible robot in closed loop"
 
@@ -57,7 +57,7 @@ def run(build: Path) -> dict[str, Any]:
     for period, methods, variants in zip(PERIODS, (CANDIDATES, METHODS), (list(VARIANTS), [_BEST]), strict=True):
         loop = closed_loop(ROBOT, SET, period)
         place = folder(build, f"methods{period:g}")
-        own = Simulation(loop.model, place, loop.parameters, "flexible", FLAGS, methods)
+        own = Simulation(loop.model, compiled(loop.model, place, FLAGS, methods), loop.parameters, "flexible")
         tight, told = _reference(loop, own)
         found = list(_methods(loop, own, tight, methods))
         asked = [row for row in found if row["emitted"] and row["error asked"] == TARGETS[0]]

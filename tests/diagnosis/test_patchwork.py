@@ -50,18 +50,21 @@ def test_a_joint_that_is_patched_is_unexplained(tmp_path: Path, monkeypatch: pyt
     assert "The findings below are: viscous friction that depends on the direction" in page
 
 
-@pytest.mark.long
-def test_the_last_doubts_count(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("rule", [pytest.param("few_rows.doubted", marks=pytest.mark.long), "doubted"])
+def test_the_last_doubts_count(rule: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """What is doubted because rows are few, or because a value is contradicted, is not firm either."""
     regressors, sources = recorded(tmp_path, [torque("stribeck asymmetry")] * 3)
+    monkeypatch.setattr(f"identification.diagnosis.diagnosis.{rule}", _all_doubted)
+    monkeypatch.setattr("identification.diagnosis.diagnosis.patched", _of_several)
+    one = diagnosis_of(sources, regressors)
+    assert {each.status for each in one.findings} == {TENTATIVE}
+    assert (one.verdict, one.reason, one.after.joint) == (UNEXPLAINED, PATCHED, 1)
+
+
+@pytest.mark.long
+def test_without_these_doubts_what_is_patched_is_firm(tmp_path: Path) -> None:
+    regressors, sources = recorded(tmp_path, [torque("stribeck asymmetry")] * 3)
     assert {one.status for one in diagnosis_of(sources, regressors).findings} == {FIRM}
-    for rule in ("few_rows.doubted", "doubted"):
-        with monkeypatch.context() as changed:
-            changed.setattr(f"identification.diagnosis.diagnosis.{rule}", _all_doubted)
-            changed.setattr("identification.diagnosis.diagnosis.patched", _of_several)
-            one = diagnosis_of(sources, regressors)
-        assert {each.status for each in one.findings} == {TENTATIVE}
-        assert (one.verdict, one.reason, one.after.joint) == (UNEXPLAINED, PATCHED, 1)
 
 
 def _all_doubted(*given: Any) -> tuple[Finding, ...]:

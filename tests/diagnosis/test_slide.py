@@ -4,19 +4,24 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+import sympy
 from scipy.integrate import cumulative_trapezoid
 from scipy.signal import lfilter
 
+from generator.robot.description import EffectUse, ParameterSet, ParameterValue
+from generator.units import Quantity
 from identification.diagnosis.candidates import backlash, base_tilt, elasticity
 from identification.diagnosis.columns.hypothesis import Hypothesis
 from identification.diagnosis.command import Request
 from identification.diagnosis.diagnosis import NAMED, NOTHING, Diagnosis
 from identification.diagnosis.verdict.finding import FIRM
 from identification.observation import Motion
+from tests.diagnosis.diagnosed import with_robot
 from tests.diagnosis.diagnosed_arm import answered
 from tests.recorded import SLIDE, Array, Recorded
 
@@ -126,6 +131,22 @@ def drive_train(right: Diagnosis) -> tuple[Hypothesis, Hypothesis]:
     scenes = right.search.bank.scenes
     (soft,), (loose,) = elasticity.hypotheses(scenes), backlash.hypotheses(scenes)
     return soft, loose
+
+
+def test_no_drive_train_is_looked_for_where_an_encoder_or_the_file_tells(
+    drive_train: tuple[Hypothesis, Hypothesis], right: Diagnosis
+) -> None:
+    assert all(drive_train)
+    (scene, *_) = right.search.bank.scenes
+    run = replace(scene.sampled.run, others={"qs1": scene.t})
+    watched = replace(scene, sampled=replace(scene.sampled, run=run))
+    gap = EffectUse("joint_elasticity", (1,), {"gap": Quantity(sympy.Rational(1, 1000), "m")})
+    sets = {"stiff": ParameterSet("stiff", "", "", {"k1": ParameterValue(1e6, "N/m")})}
+    effects = (*scene.robot.effects, gap)
+    elastic = with_robot(scene, replace(scene.robot, flexible=(1,), effects=effects, parameter_sets=sets))
+    for one in (watched, elastic):
+        assert elasticity.hypotheses([one]) == []
+        assert backlash.hypotheses([one]) == []
 
 
 @pytest.mark.parametrize(("part", "alike"), [(1.0, True), (0.2, True), (0.05, False), (20.0, False)])

@@ -58,7 +58,7 @@ def test_joints_on_which_runs_are_noisier_are_told_so() -> None:
 @pytest.mark.parametrize(
     ("loud", "load", "told"),
     [
-        pytest.param(4.0, 0.0, "they may only be noisier", marks=pytest.mark.long),
+        (4.0, 0.0, "they may only be noisier"),
         (1.0, 8.0, "keep far more than noise on"),
     ],
 )

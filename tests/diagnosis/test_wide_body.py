@@ -44,7 +44,6 @@ def unit(name: str) -> str:
     return {"M": "kg m", "F": "N m s/rad" if name[1] == "v" else "N m"}.get(name[0], "kg m2")
 
 
-@pytest.mark.long
 def test_it_is_told_by_how_its_mass_is_spread(tmp_path: Path) -> None:
     (path := tmp_path / "true.yaml").write_text(POSITIONER)
     regressors, draw, sources = Regressors(read(path)), np.random.default_rng(3), []
