@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from generator.symbolic.model import Model
 from tests.bound import Bound
-from tests.compiled import run
+from tests.compiled import SHARED, run
 
 Results = dict[str, NDArray[np.float64]]
 
@@ -26,7 +26,7 @@ class CLibrary:
         self._model = model
         name = model.robot.name
         library = folder / f"lib{name}{len(list(folder.iterdir()))}.so"
-        run(["gcc", "-std=c99", "-shared", "-fPIC", *flags, folder / f"{name}.c", "-o", library, "-lm"])
+        run(["gcc", "-std=c99", *SHARED, *flags, folder / f"{name}.c", "-o", library, "-lm"])
         self._c = Bound(name, library, folder / f"{name}.h", flags)
 
     def evaluate(self, function: str, inputs: Mapping[str, ArrayLike]) -> Results:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
@@ -27,18 +28,13 @@ from tests.diagnosis.diagnosed_arm import case
 from tests.lifter import found, lifter
 from tests.recorded import TRUTH, recorded, twin_text, two_links
 
-#: The kinds of reports, and the sub-packages of identification.report that make them.
-KINDS = {
-    "identify": "identify",
-    "gains": "gains",
-    "steps": "stiffness",
-    "locked": "stiffness",
-    "links": "stiffness",
-    "compare": "compare",
-    "diagnose": "diagnose",
-    "excite": "excite",
-    "output_error": "output_error",
-}
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of reports: the sub-package of identification.report that makes it, and one of what is in a folder."""
+
+    package: str
+    made: Callable[[Path], bytes]
 
 
 def identified(folder: Path) -> Subject:
@@ -67,7 +63,7 @@ def pages(folder: Path) -> dict[str, bytes]:
 def report_of(kind: str, folder: Path) -> bytes:
     """The report of a kind, of what is recorded into a new ``folder``."""
     folder.mkdir()
-    return _MADE[kind](folder)
+    return KINDS[kind].made(folder)
 
 
 def _identify(folder: Path) -> bytes:
@@ -80,20 +76,20 @@ def _locked(folder: Path) -> bytes:
 
 
 def _excite(folder: Path) -> bytes:
-    return _of_command("excite", folder, "--evaluations", "256", "--parameters", "twin")
+    return _of_command("excite", _twin(folder), "--evaluations", "256", "--parameters", "twin")
 
 
 def _output_error(folder: Path) -> bytes:
-    run = folder / "A.csv"
+    robot, run = _twin(folder), folder / "A.csv"
     few = ("--duration", "6", "--noise", "0.3", "--parameters", "twin")
-    assert main(["simulate", str(_twin(folder)), *few, "--out", str(run)]) == 0
-    return _of_command("output-error", folder, "--data", str(run), "--test", f"{run}@1:5", "--starts", "2")
+    assert main(["simulate", str(robot), *few, "--out", str(run)]) == 0
+    return _of_command("output-error", robot, "--data", str(run), "--test", f"{run}@1:5", "--starts", "2")
 
 
-def _of_command(name: str, folder: Path, *words: str) -> bytes:
-    """What a command leaves of two simulated links."""
-    out = folder / "out"
-    assert main([name, str(_twin(folder)), *words, "--out", str(out)]) == 0
+def _of_command(name: str, robot: Path, *words: str) -> bytes:
+    """What a command leaves of a robot file, beside it."""
+    out = robot.parent / "out"
+    assert main([name, str(robot), *words, "--out", str(out)]) == 0
     return (out / "report.html").read_bytes()
 
 
@@ -108,16 +104,16 @@ def _side(name: str, factor: float) -> Parameters:
     return Parameters(name, f"{name}.json", "0" * 64, values | {f"only_{name}": Known(None, None, "1")})
 
 
-_MADE: Mapping[str, Callable[[Path], bytes]] = {
-    "identify": _identify,
-    "gains": lambda folder: gains_report.report(found(lifter(folder), folder)),
-    "steps": lambda folder: stiffness_report.report(stiff_arm.steps(folder)),
-    "locked": _locked,
-    "links": lambda folder: stiffness_report.report(lagging(folder)),
-    "compare": lambda folder: compare_report.report(compare(_side("a", 1.0), _side("b", 1.1))),
-    "diagnose": lambda folder: case(folder, "stribeck").page,
-    "excite": _excite,
-    "output_error": _output_error,
+KINDS = {
+    "identify": Kind("identify", _identify),
+    "gains": Kind("gains", lambda folder: gains_report.report(found(lifter(folder), folder))),
+    "steps": Kind("stiffness", lambda folder: stiffness_report.report(stiff_arm.steps(folder))),
+    "locked": Kind("stiffness", _locked),
+    "links": Kind("stiffness", lambda folder: stiffness_report.report(lagging(folder))),
+    "compare": Kind("compare", lambda folder: compare_report.report(compare(_side("a", 1.0), _side("b", 1.1)))),
+    "diagnose": Kind("diagnose", lambda folder: case(folder, "stribeck").page),
+    "excite": Kind("excite", _excite),
+    "output_error": Kind("output_error", _output_error),
 }
 
 

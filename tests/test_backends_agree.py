@@ -20,7 +20,7 @@ from generator.backends import numpy as numpy_backend
 from generator.symbolic.function import PARAMETERS, Function
 from generator.symbolic.parameter_sets import parameter_vector
 from tests.c_library import CLibrary, Results
-from tests.compiled import module, run, write
+from tests.compiled import SHARED, module, run, write
 from tests.conftest import EVERY, FILES
 from tests.subject import Subject
 
@@ -72,7 +72,7 @@ class Emitted:
     def external(self) -> Path:
         sources = [self.folder / "casadi" / f"{self.name}_casadi.c", self.folder / "c" / f"{self.name}.c"]
         library = self.folder / "external.so"
-        run(["gcc", "-std=c99", "-O0", "-shared", "-fPIC", f"-I{self.folder / 'c'}", *sources, "-o", library, "-lm"])
+        run(["gcc", "-std=c99", "-O0", *SHARED, f"-I{self.folder / 'c'}", *sources, "-o", library, "-lm"])
         return library
 
     @cached_property

@@ -27,7 +27,7 @@ from generator.symbolic.function import PARAMETERS
 from generator.symbolic.statements import Program
 from tests.c_library import CLibrary
 from tests.commands import ROOT
-from tests.compiled import module, run, write
+from tests.compiled import SHARED, module, run, write
 from tests.misra import checked, documented_rules
 from tests.toy import VALUES, Inputs, function, interpreted, programs, toy, uncertainty
 from tests.toy_example import assert_close, example, expected, reference_cases, states
@@ -277,7 +277,7 @@ def test_saved_functions_load(python: tuple[Any, Any], tmp_path: Path) -> None:
 @pytest.fixture(scope="module")
 def external(library: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = write(tmp_path_factory.mktemp("casadi"), casadi_backend.emit(example()))
-    flags = ["-std=c99", "-O1", *WARNINGS, "-shared", "-fPIC", f"-I{library}"]
+    flags = ["-std=c99", "-O1", *WARNINGS, *SHARED, f"-I{library}"]
     run(["gcc", *flags, folder / "toy_casadi.c", library / "toy.c", "-o", folder / "toy.so", "-lm"])
     return folder / "toy.so"
 

@@ -250,45 +250,31 @@ np.savez(
 """
 
 
-OPTIONS = {
-    "gcc": (
-        ("-O0",),
-        ("-O2",),
-        ("-O2", "-mavx2", "-mfma"),
-        ("-O3", "-march=native"),
-        ("-O1", "-D{}_BATCH_SCALAR"),
-        ("-O1", "-D{}_USE_LIBM"),
-        ("-O1", "-D_OPENMP=200203"),  # with the pragmas unknown, as earlier ones' unsigned loops are
-        ("-O2", "-funsafe-math-optimizations"),
-        ("-O2", "-march=native", "-D{}_STREAM_BYTES=0"),
-        ("-O2", "-D{}_STREAM_BYTES=0"),
-        ("-O2", "-march=native", "-D{}_USE_FLOAT"),
-        ("-O2", "-D{}_USE_FLOAT", "-D{}_STREAM_BYTES=0"),
-        ("-O1", "-D{}_USE_FLOAT", "-D{}_BATCH_SCALAR"),
-    ),
-    "clang": (
-        ("-O2",),
-        ("-O2", "-march=native", "-D{}_STREAM_BYTES=0"),
-        ("-O2", "-march=native", "-D{}_USE_FLOAT", "-D{}_STREAM_BYTES=0"),
-    ),
-}
-#: Whose parts others of gcc hold, each by itself.
-FURTHER = {
-    ("gcc", "-O2"),
-    ("gcc", "-O2", "-mavx2", "-mfma"),
-    ("gcc", "-O2", "-D{}_USE_FLOAT", "-D{}_STREAM_BYTES=0"),
-    ("clang", "-O2", "-march=native", "-D{}_STREAM_BYTES=0"),
-}
+#: The further ones have nothing that others of gcc have not, each by itself.
+OPTIONS = [
+    ("gcc", ("-O0",)),
+    pytest.param("gcc", ("-O2",), marks=pytest.mark.long),
+    pytest.param("gcc", ("-O2", "-mavx2", "-mfma"), marks=pytest.mark.long),
+    ("gcc", ("-O3", "-march=native")),
+    ("gcc", ("-O1", "-D{}_BATCH_SCALAR")),
+    ("gcc", ("-O1", "-D{}_USE_LIBM")),
+    ("gcc", ("-O1", "-D_OPENMP=200203")),  # with the pragmas unknown, as earlier ones' unsigned loops are
+    ("gcc", ("-O2", "-funsafe-math-optimizations")),
+    ("gcc", ("-O2", "-march=native", "-D{}_STREAM_BYTES=0")),
+    ("gcc", ("-O2", "-D{}_STREAM_BYTES=0")),
+    ("gcc", ("-O2", "-march=native", "-D{}_USE_FLOAT")),
+    pytest.param("gcc", ("-O2", "-D{}_USE_FLOAT", "-D{}_STREAM_BYTES=0"), marks=pytest.mark.long),
+    ("gcc", ("-O1", "-D{}_USE_FLOAT", "-D{}_BATCH_SCALAR")),
+    ("clang", ("-O2",)),
+    pytest.param("clang", ("-O2", "-march=native", "-D{}_STREAM_BYTES=0"), marks=pytest.mark.long),
+    ("clang", ("-O2", "-march=native", "-D{}_USE_FLOAT", "-D{}_STREAM_BYTES=0")),
+]
 
 
 @pytest.mark.parametrize("arm", ["scara", pytest.param("pendulum", marks=pytest.mark.long)], indirect=True)
 @pytest.mark.parametrize(
     ("compiler", "flags"),
-    [
-        pytest.param(compiler, flags, marks=[pytest.mark.long] * ((compiler, *flags) in FURTHER))
-        for compiler, lists in OPTIONS.items()
-        for flags in lists
-    ],
+    OPTIONS,
     ids=lambda value: value if isinstance(value, str) else " ".join(value),
 )
 def test_compilers_and_options_agree(arm: Arm, compiler: str, flags: tuple[str, ...]) -> None:

@@ -136,7 +136,7 @@ def test_any_chain_equals_the_textbook_recursion(draw: Random, seed: int) -> Non
     check_core(subject(random_robot(draw), seed, CORE), seed)
 
 
-@settings(max_examples=2)
+@settings(max_examples=8)
 @given(st.randoms(use_true_random=False), st.integers(0, 1000))
 def test_any_lengths_of_the_reports_structure_equal_the_textbook_recursion(draw: Random, seed: int) -> None:
     arm = subject(random_anthropomorphic(draw), seed, CORE)

@@ -282,9 +282,10 @@ def test_limits_that_no_motion_can_keep(file: Path, tmp_path: Path, capsys: pyte
     assert "no joint can be faster than its standstill threshold" in done.err.splitlines()[-1]
 
 
+ONE_OF_TWO = "t,qr1\n0,0\n0.1,0\n0.2,0\n"
 PLAYED = {
     "t,qr1,qr2\n0,0,0\n0.1,1,0\n0.2,5,0\n0.3,1,0\n": "run.csv:4:5: qr1 is 5, expected a position from -1.047 to 1.571",
-    "t,qr1\n0,0\n0.1,0\n0.2,0\n": "run.csv:1:3: there is no column qr2, expected qr1 to qr2",
+    ONE_OF_TWO: "run.csv:1:3: there is no column qr2, expected qr1 to qr2",
     "qr1,qr2\n0,0\n0,0\n0,0\n": "run.csv:1:1: there is no column t, expected times in s",
     "t,qr1,qr2\n0,0,0\n0.1,nan,0\n0.2,0,0\n": "run.csv:3:5: qr1 is nan, expected a finite number",
     "t,qr1,qr2\n0,0,0\n0.1,0.1,0\n0.2,0.2,0\n0.3,0.3,0\n": "does not begin at rest",
@@ -303,11 +304,11 @@ def test_of_a_file_that_cannot_be_played_the_command_says_so(
     file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     run = tmp_path / "run.csv"
-    run.write_text("t,qr1\n0,0\n0.1,0\n0.2,0\n")
+    run.write_text(ONE_OF_TWO)
     words = ("--trajectory", "played", "--set", f"file={run}", "--duration", "1")
     done = command("simulate", file, "--out", tmp_path / "out.csv", *words, capsys=capsys)
     assert done.status == 2
-    assert "run.csv:1:3: there is no column qr2, expected qr1 to qr2" in done.err.splitlines()[-1]
+    assert PLAYED[ONE_OF_TWO] in done.err.splitlines()[-1]
 
 
 def test_positions_are_written_as_the_controller_counts_them(

@@ -35,7 +35,7 @@ SIGNALS = {
     "time": "signals: {warm_up_time: 20 s}\n",
     "heat": "signals: {warm_up_time: 20 s, warm_torque: 90 N m}\n",
 }
-CASES = [pytest.param("time", marks=pytest.mark.long), "heat"]
+CASES = [one if one == "heat" else pytest.param(one, marks=pytest.mark.long) for one in SIGNALS]
 COLD = {"ZZ1": 5.0, "Fv1": 3.0, "Fd1": 85.0}
 DRIFT = {"Fvw1": 2.0, "Fcw1": 10.0}
 UNITS = {"ZZ1": "kg m2", "Fv1": "N m s/rad", "Fd1": "N m", "Fvw1": "N m s/rad", "Fcw1": "N m"}

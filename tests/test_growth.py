@@ -9,7 +9,7 @@ from tests.chains import random_chain
 
 
 def test_operations_grow_quadratically_and_torques_linearly() -> None:
-    short, long = (derive(random_chain(Random(count), count), check=False) for count in (8, 16))
+    short, long = (derive(random_chain(Random(count), count)) for count in (8, 16))
     assert len(long.program) <= 4.4 * len(short.program)
     torque = [model.functions["inverse_dynamics"].count.total / model.dof for model in (short, long)]
     # Operations a joint: what a random chain's right angles save differs between the two.

@@ -6,16 +6,11 @@ import numpy as np
 import pytest
 
 from tests.conftest import derived
-from tests.subject import Subject, close
+from tests.subject import close
 
 KUKAS = ("kr270", "kr500")
 JOINT = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M", "Ia", "Fv", "Fc", "Off")
 BALANCER = {"kr270": ("Kr2", "K02"), "kr500": ("F02",)}
-
-
-def kuka(name: str) -> Subject:
-    """One of the report's robots, derived."""
-    return derived(name)
 
 
 @pytest.mark.parametrize(
@@ -23,7 +18,7 @@ def kuka(name: str) -> Subject:
     [("kr270", 0.350 + 1.250 + 1.100 + 0.230, 0.750 - 0.055), ("kr500", 0.500 + 1.300 + 1.025 + 0.290, 1.045 + 0.055)],
 )
 def test_the_arm_is_stretched_out_level_where_every_q_is_zero(name: str, reach: float, height: float) -> None:
-    pose = kuka(name).output("tool_transform", q=np.zeros(6))
+    pose = derived(name).output("tool_transform", q=np.zeros(6))
     assert close(pose[:3, 3], [reach, 0, height])
     # z6 points back at the wrist: rl6 is negative.
     assert close(pose[:3, 2], [-1, 0, 0])
@@ -31,19 +26,19 @@ def test_the_arm_is_stretched_out_level_where_every_q_is_zero(name: str, reach: 
 
 @pytest.mark.parametrize("name", KUKAS)
 def test_upper_arm_stands_where_q2_is_minus_90_degrees(name: str) -> None:
-    shoulder, elbow = kuka(name).output("transforms", q=[0, -np.pi / 2, 0, 0, 0, 0])[1:3, :3, 3]
-    d3 = next(float(length.value) for length in kuka(name).robot.lengths if length.name == "d3")
+    shoulder, elbow = derived(name).output("transforms", q=[0, -np.pi / 2, 0, 0, 0, 0])[1:3, :3, 3]
+    d3 = next(float(length.value) for length in derived(name).robot.lengths if length.name == "d3")
     assert close(elbow - shoulder, [0, 0, d3])
 
 
 @pytest.mark.parametrize("name", KUKAS)
 def test_axis_1_points_down(name: str) -> None:
-    assert close(kuka(name).output("transforms", q=np.zeros(6))[0][:3, 2], [0, 0, -1])
+    assert close(derived(name).output("transforms", q=np.zeros(6))[0][:3, 2], [0, 0, -1])
 
 
 @pytest.mark.parametrize("name", KUKAS)
 def test_weight_and_balancer_are_opposed_where_the_arm_is_level(name: str) -> None:
-    arm = kuka(name)
+    arm = derived(name)
     weight = arm.with_values({"MX2": 1.0}).output("gravity", q=np.zeros(6))
     assert close(weight, [0, -9.81, 0, 0, 0, 0])
     pull = arm.with_values({"Kr2": 1.0, "F02": 1.0}).generated("balancer", {"q": np.zeros(6)})
@@ -57,12 +52,12 @@ def test_standard_parameters_are_in_the_order_of_equations_4_32_and_38(name: str
     for joint in range(1, 7):
         expected += [f"{stem}{joint}" for stem in JOINT]
         expected += BALANCER[name] if joint == 2 else ()
-    assert kuka(name).standard == expected
+    assert derived(name).standard == expected
 
 
 @pytest.mark.parametrize("name", KUKAS)
 def test_base_parameters_keep_that_order(name: str) -> None:
-    arm = kuka(name)
+    arm = derived(name)
     assert arm.heads == sorted(arm.heads, key=arm.standard.index)
     names = [parameter.name for parameter in arm.model.parameters]
     assert names[: len(arm.heads)] == list(arm.base_values)
@@ -72,7 +67,7 @@ def test_base_parameters_keep_that_order(name: str) -> None:
 
 @pytest.mark.parametrize("name", KUKAS)
 def test_gains_multiply_currents_as_in_equation_49(name: str) -> None:
-    arm = kuka(name)
+    arm = derived(name)
     assert arm.robot.drives is not None
     N = np.array([[float(entry) for entry in row] for row in arm.robot.drives.coupling])
     gains = np.diag(N) * [arm.values[f"kt{joint}"] for joint in range(1, 7)]
@@ -85,7 +80,7 @@ def test_gains_multiply_currents_as_in_equation_49(name: str) -> None:
 
 @pytest.mark.parametrize("name", KUKAS)
 def test_a_motor_against_a_blocked_link_obeys_equation_71(name: str) -> None:
-    arm = kuka(name)
+    arm = derived(name)
     qm, qmd, qmdd = (
         np.array([0.02, -0.01, 0.03, 0.01, -0.02, 0.04]),
         np.array([0.3, -0.2, 0.1, 0.5, -0.4, 0.2]),
@@ -105,7 +100,7 @@ def test_a_motor_against_a_blocked_link_obeys_equation_71(name: str) -> None:
 
 @pytest.mark.parametrize("name", KUKAS)
 def test_the_balancer_is_taken_off_axis_2_as_in_equation_72(name: str) -> None:
-    arm = kuka(name)
+    arm = derived(name)
     q, qd, qdd = arm.state(2)
     full = arm.output("inverse_dynamics", q=q, qd=qd, qdd=qdd)
     without = arm.without("Kr", "K0", "F0").output("inverse_dynamics", q=q, qd=qd, qdd=qdd)
@@ -116,7 +111,7 @@ def test_the_balancer_is_taken_off_axis_2_as_in_equation_72(name: str) -> None:
 @pytest.mark.parametrize("name", KUKAS)
 def test_force_steps_at_rest_show_stiffness_and_gains_as_in_equations_76_to_78(name: str) -> None:
     # Links held still by their environment: motors follow the wrench's change, the springs between them tell k.
-    arm = kuka(name).without("Ia", "Fv", "Fc", "Off", "Offm")
+    arm = derived(name).without("Ia", "Fv", "Fc", "Off", "Offm")
     qa = arm.state(3)[0]
     stiffness = np.array([arm.values[f"k{joint}"] for joint in range(1, 7)])
     wrenches = np.array([[0, 0, 900.0, 0, 0, 0], [150.0, -300.0, 1400.0, 20.0, 0, -30.0]])

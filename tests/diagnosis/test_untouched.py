@@ -56,11 +56,7 @@ def test_joints_on_which_runs_are_noisier_are_told_so() -> None:
 
 
 @pytest.mark.parametrize(
-    ("loud", "load", "told"),
-    [
-        (4.0, 0.0, "they may only be noisier"),
-        (1.0, 8.0, "keep far more than noise on"),
-    ],
+    ("loud", "load", "told"), [(4.0, 0.0, "they may only be noisier"), (1.0, 8.0, "keep far more than noise on")]
 )
 def test_noise_of_a_run_is_told_from_what_its_model_lacks(loud: float, load: float, told: str, tmp_path: Path) -> None:
     """A last run with noise ``loud`` times that of the others, or with a weight of ``load`` N on an arm of a metre."""
