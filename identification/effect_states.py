@@ -10,11 +10,11 @@ state the first result is the last one.
 from __future__ import annotations
 
 from collections.abc import Callable
-from itertools import accumulate
 
 import numpy as np
 
 from identification.arrays import Array
+from identification.recursion import from_start
 
 #: Rates of the states (N x s) for positions, speeds (N x n) and states (N x s).
 Rates = Callable[[Array, Array, Array], Array]
@@ -56,7 +56,8 @@ def integrated(rates: Rates, q: Array, qd: Array, period: float, start: Array) -
         about = np.clip((z[1:] + z[:-1]) / 2, -_FAR, _FAR)
         rate, slope = _linearised(rates, middle_q, middle_qd, about)
         x = h * slope
-        new = _recursion(np.exp(x), h * _phi(x) * (rate - slope * about), start)
+        summands = h * phi(x) * (rate - slope * about)
+        new = np.stack([from_start(*one) for one in zip(np.exp(x).T, summands.T, start, strict=True)], axis=-1)
         change = np.abs(new - z).max()
         z = new
         # What has no value is told by the torque that it makes.
@@ -73,11 +74,11 @@ def _one_by_one(rates: Rates, q: Array, qd: Array, h: float, start: Array) -> Ar
     z[0] = start
     for i in range(len(q)):
         rate, slope = _linearised(rates, q[i : i + 1], qd[i : i + 1], z[i : i + 1])
-        z[i + 1] = z[i] + h * (_phi(h * slope) * rate)[0]
+        z[i + 1] = z[i] + h * (phi(h * slope) * rate)[0]
     return z
 
 
-def _phi(x: Array) -> Array:
+def phi(x: Array) -> Array:
     """(e^x - 1)/x."""
     small = np.abs(x) < 1e-9
     return np.where(small, 1.0, np.expm1(x) / np.where(small, 1.0, x))
@@ -93,12 +94,3 @@ def _linearised(rates: Rates, q: Array, qd: Array, z: Array) -> tuple[Array, Arr
     """Rates at the states and their slopes (N x s each); each rate is moved by its own state only."""
     above, below = rates(q, qd, z + _APART), rates(q, qd, z - _APART)
     return rates(q, qd, z), (above - below) / (2 * _APART)
-
-
-def _recursion(a: Array, b: Array, start: Array) -> Array:
-    """z[0] = start, z[i + 1] = a[i] z[i] + b[i], each column for itself ((N + 1) x s)."""
-    columns = []
-    for factors, summands, first in zip(a.T.tolist(), b.T.tolist(), start.tolist(), strict=True):
-        pairs = zip(factors, summands, strict=True)
-        columns.append(list(accumulate(pairs, lambda z, one: one[0] * z + one[1], initial=first)))
-    return np.array(columns).T

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from typing import Any
 
-import casadi
 import numpy as np
 import sympy
 from scipy.integrate import cumulative_trapezoid
@@ -13,6 +12,7 @@ from scipy.integrate import cumulative_trapezoid
 from generator.effects.effect import Effect, Shape, Site
 from generator.robot.description import Joint, Robot
 from identification.arrays import Array
+from identification.diagnosis.columns.state_steps import Steps, steps
 from identification.diagnosis.runs.scene import Scene
 from identification.effect_states import beginning
 
@@ -22,10 +22,6 @@ NEEDS = frozenset({"q", "qd", "qdd", "motor", "load", "warmth", "state"})
 _STEPS = 500.0
 #: Positions over a joint's limits at which lengths are looked at that must be positive.
 _STEPS_OVER = 200
-#: Slope times step below which (e^x - 1)/x is 1.
-_LINEAR = 1e-9
-#: What the rates of states are made of, by the names that they are printed with.
-_CASADI = {"Abs": casadi.fabs, "direction": casadi.sign, "exp": casadi.exp, "sqrt": casadi.sqrt, "tanh": casadi.tanh}
 
 
 class EffectColumns:
@@ -41,8 +37,7 @@ class EffectColumns:
         self._site = Site(joint, values, _ratios(robot, k) if "motor" in effect.needs else {})
         self._effect = effect
         self._function: Callable[..., Any] | None = None
-        self._step: Any = None
-        self._by_count: dict[int, Any] = {}
+        self._steps: Steps | None = None
 
     def from_the_start(self, scene: Scene, shape: Mapping[str, float]) -> Array:
         """Columns (2 p x n x N), and once more those of drives that are warm all along: what a file's values, which are
@@ -58,7 +53,7 @@ class EffectColumns:
             self._prepare()
         assert self._function is not None
         values = [shape[name] for name in self._names]
-        states = [] if self._step is None else self._states(scene, values)
+        states = [] if self._steps is None else self._states(scene, values)
         signals = self._signals(scene, shape.get("warm_up_time"), warm)
         motion = scene.motion
         result = np.zeros((len(self._effect.parameters), len(self._numbers), motion.samples))
@@ -88,7 +83,7 @@ class EffectColumns:
         given = [*(at.values[name] for name in self._names), at.q]
         self._positive = [(one, sympy.lambdify(given, one.length, "numpy")) for one in lengths]
         if effect.rates is not None:
-            self._step = _step(effect.rates(at)[0], states[0], at.qd, [at.values[name] for name in self._names])
+            self._steps = steps(effect.rates(at)[0], states[0], at.qd, [at.values[name] for name in self._names])
 
     def _anywhere(self, q: Array) -> Array:
         """Positions of a run, and all that the robot's file allows."""
@@ -113,35 +108,14 @@ class EffectColumns:
         way = cumulative_trapezoid(qd, initial=0)[::stride]
         speed = np.append(np.diff(way) / stride, qd[-1])
         count = len(speed)
-        given = np.array([*values, stride * scene.period])[:, None]
-        if count not in self._by_count:
-            self._by_count[count] = self._step.mapaccum("states", count)
-        _, z = self._by_count[count](float(beginning(qd)), speed[None], np.tile(given, count))
-        return [np.interp(np.arange(len(head), len(qd)), np.arange(count) * stride, z.full()[0])]
+        assert self._steps is not None
+        z = self._steps(speed, values, stride * scene.period, float(beginning(qd)))
+        return [np.interp(np.arange(len(head), len(qd)), np.arange(count) * stride, z)]
 
 
 def _symbol(shape: Shape) -> sympy.Symbol:
     signed = shape.lower is None or shape.lower < 0
     return sympy.Symbol(f"shape_{shape.name}", **({"real": True} if signed else {"positive": True}))
-
-
-def _step(rate: sympy.Expr, state: sympy.Symbol, speed: sympy.Symbol, values: Sequence[sympy.Symbol]) -> Any:
-    """A casadi function of (z, speed, [values; h]): z a step h later, and now.
-
-    Exact where the rate f is linear in z: z + h f phi(h f'), phi = (e^x - 1)/x.
-    """
-    slope = sympy.diff(rate, state).subs(sympy.Derivative(sympy.sign(state), state), 0)
-    slope = slope.replace(sympy.DiracDelta, lambda *_: sympy.S.Zero)
-    # Printed as Python sign is a choice, which symbols do not make.
-    both = [one.replace(sympy.sign, sympy.Function("direction")) for one in (rate, slope)]
-    z, v, given = casadi.SX.sym("z"), casadi.SX.sym("v"), casadi.SX.sym("given", len(values) + 1)
-    *own, h = casadi.vertsplit(given)
-    f, of_z = sympy.lambdify([*values, speed, state], both, [_CASADI], cse=True)(*own, v, z)
-    # At zero a power of |z| has no slope; a step there is Euler's.
-    x = casadi.if_else(z == 0, 0, h * of_z)
-    linear = casadi.fabs(x) <= _LINEAR
-    phi = casadi.if_else(linear, 1, casadi.expm1(x) / casadi.if_else(linear, 1, x))
-    return casadi.Function("step", [z, v, given], [z + h * f * phi, z])
 
 
 def _ratios(robot: Robot, k: int) -> dict[int, sympy.Expr]:

@@ -9,28 +9,27 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
-from typing import Any, TypeAlias
 
-import casadi
 import numpy as np
 
 from generator.symbolic.model import Model
 from identification.arrays import Array
+from identification.diagnosis.runs.link_steps import (
+    STABLE,
+    STABLE_IN_GAPS,
+    Link,
+    Spring,
+    Value,
+    played,
+    torques_in_gaps,
+)
 from identification.diagnosis.runs.perturbation import alone, quicker, sensitivity
 from identification.diagnosis.runs.rotor import rotor_is_apart
 from identification.diagnosis.runs.scene import Scene
 from identification.observation import Motion
 
-#: A number, or an array of as many as are played at once.
-Value: TypeAlias = Any
-
 #: Change of a position [rad, m] and of a speed [rad/s, m/s] by which a torque's derivative is found.
 _SMALL = 1e-4
-#: k h^2 / M up to which central differences swing and do not grow: where it is 4 times ``_second``, and 4 with a gap.
-_STABLE, _STABLE_IN_GAPS = 20 - np.sqrt(160), 4.0
-#: Steps that are one for the interpreter.
-_STEPS = 50
 
 
 @dataclass(frozen=True)
@@ -75,11 +74,11 @@ class LinkSide:
         return result
 
     @property
-    def along(self) -> Array:
-        """What ``_step`` takes of the link, sample by sample (4 x N)."""
+    def along(self) -> Link:
+        """What a step takes of the link, sample by sample (N each)."""
         smooth = self.load.copy()
         smooth[1:-1] += np.diff(self.load, 2) / 12
-        return np.stack([self.load, smooth, self.inertia, self.drag])
+        return Link(self.load, smooth, self.inertia, self.drag)
 
     def with_rotor(self, rotor: float) -> LinkSide:
         """The same with another share of the whole inertia on the motor's side, unless that is a base parameter of its
@@ -104,28 +103,28 @@ class LinkSide:
         """The same without a load, from a ``start``: deflection [rad, m] and its speed [rad/s, m/s]."""
         return replace(self, load=np.zeros_like(self.load))._played(train, start)
 
+    def swing(self, train: Train, end: int) -> Array:
+        """Torque of the link by its swing against the motor [N m, N], of the first ``end`` samples."""
+        along = Link(*(each[:end] for each in self.along))
+        return np.asarray(along.inertia * played(along, self.spring(train), self.start(train))[2])
+
     def _played(self, train: Train, start: tuple[Value, Value]) -> Motion:
         """No numbers where the samples do not follow the swings all along: they would grow without end."""
         if not self.follows(train):
             return alone(self.scene.motion, self.k, np.full((3, self.scene.motion.samples), np.nan))
-        samples = self.scene.motion.samples
-        count = -(-samples // _STEPS)
-        link = np.pad(self.along, ((0, 0), (0, count * _STEPS - samples)), mode="edge")
-        own = np.tile(np.array(self.own(train))[:, None], count)
-        _, played = _many_steps(count, bool(train.gap))(list(start), link, own)
-        return alone(self.scene.motion, self.k, np.asarray(played)[:, :samples])
+        return alone(self.scene.motion, self.k, played(self.along, self.spring(train), start))
 
     def follows(self, train: Train) -> bool:
         """Whether the samples follow the swings: the differences are stable all along, of the lightest link too."""
         least = float(np.min(self.inertia))
         if least <= 0:
             return False
-        return bool(train.stiffness * self.scene.period**2 / least < (_STABLE if train.gap == 0 else _STABLE_IN_GAPS))
+        return bool(train.stiffness * self.scene.period**2 / least < (STABLE if train.gap == 0 else STABLE_IN_GAPS))
 
-    def own(self, train: Train) -> tuple[Value, Value, Value, Value]:
-        """Stiffness, damping d, half of the gap and the samples' period, as ``_step`` takes them."""
+    def spring(self, train: Train) -> Spring:
+        """What a step takes of a drive train."""
         d = 2 * train.damping * np.sqrt(train.stiffness * float(np.mean(self.inertia)))
-        return train.stiffness, d, train.gap / 2, self.scene.period
+        return Spring(train.stiffness, d, train.gap / 2, self.scene.period)
 
     def start(self, train: Train) -> tuple[Value, Value]:
         """Deflection and its speed when the log begins, of a link that hangs still."""
@@ -141,17 +140,16 @@ class LinkSide:
         return np.asarray(sum(parts))
 
 
-def swings(sides: Sequence[LinkSide], trains: Sequence[Train], end: int) -> Iterator[Array]:
-    """Torque of the joint's link by its swing against the motor (S x K) [N m, N], sample by sample up to ``end``, along
-    S ``sides`` of one scene, each on K ``trains``, all with a gap or all without.
+def swings_in_gaps(sides: Sequence[LinkSide], trains: Sequence[Train], end: int) -> Iterator[Array]:
+    """Torque of the joint's link by its swing against the motor (... x S x K) [N m, N], some samples at a time up to
+    ``end``, along S ``sides`` of one scene, each on K ``trains``, all with a gap.
     """
-    stiffness, d, half, (h, *_) = zip(*map(LinkSide.own, sides, trains), strict=True)
-    own = (np.stack(stiffness), np.stack(d), np.stack(half), h)
-    e, v = map(np.stack, zip(*map(LinkSide.start, sides, trains), strict=True))
-    links, loose = np.array([one.along[:, :end] for one in sides]), bool(np.any(own[2]))
-    for link in np.ascontiguousarray(links.transpose(2, 1, 0)[..., None]):
-        e, v, (_, _, acceleration) = _step(e, v, link, own, loose)
-        yield link[2] * acceleration
+    springs = [side.spring(train) for side, train in zip(sides, trains, strict=True)]
+    starts = [side.start(train) for side, train in zip(sides, trains, strict=True)]
+    e, v = (np.stack(each) for each in zip(*starts, strict=True))
+    links = Link(*(np.stack(each, axis=-1)[:end] for each in zip(*(side.along for side in sides), strict=True)))
+    stiffness, damping, half = (np.stack(each) for each in list(zip(*springs, strict=True))[:-1])
+    yield from torques_in_gaps(links, Spring(stiffness, damping, half, springs[0].period), (e, v))
 
 
 def link_side(scene: Scene, k: int, rotor: float) -> LinkSide:
@@ -183,48 +181,6 @@ class LinkSides:
         if made is None:
             made = self._made[id(scene)] = link_side(scene, self.first.k, self.first.rotor)
         return made if made.rotor == rotor else made.with_rotor(rotor)
-
-
-def _step(
-    e: Value, v: Value, link: Sequence[Value], own: Sequence[Value], loose: bool, of: Any = np
-) -> tuple[Value, Value, tuple[Value, ...]]:
-    """Deflection e and its speed v a sample later; and position, speed and acceleration now, of a ``link`` (its load,
-    that smoothed, inertia M and drag c): M e'' + (c + d) e' + k z = -load; z is e beyond the gap of a drive train that
-    is ``loose``, d nothing within it. The library ``of`` its values has fmax and fmin.
-
-    To the first order in 1/k and without a gap e is -load/k, but that holds far below the resonance alone. Speeds v are
-    those between samples, damping is centred. Without a gap by Numerov's method: the frequency of a swing is right to
-    1e-4 at eight samples a period. With one by central differences, which keep the momentum of impacts.
-    """
-    load, smooth, M, drag = link
-    k, d, half, h = own
-    if loose:
-        z = of.fmax(e - half, 0.0) + of.fmin(e + half, 0.0)
-        pull, damping, second, more = load + k * z, (z != 0) * d, 1.0, 0.0
-    else:
-        pull, damping, second, more = smooth + k * e, d, _second(k * (h * h / M)), (smooth - load) / M
-    c = (drag + damping) * (h / (2 * M))
-    after = (v * (1 - c) - pull * (h / M / second)) / (1 + c)
-    return e + h * after, after, (e, (v + after) / 2, (after - v) * (second / h) + more)
-
-
-def _second(x: Value) -> Value:
-    """The second derivative of a swing in parts of its second difference, (y / sin y)^2 with y = sqrt(x) / 2."""
-    return 1 + x / 12 * (1 + x / 20)
-
-
-@cache
-def _many_steps(count: int, loose: bool) -> casadi.Function:
-    """``count`` times ``_STEPS`` steps one after the other: of the first (e, v), the link's four and what a train has
-    of its own.
-    """
-    state, link, own = (casadi.SX.sym(name, *size) for name, *size in (("x", 2), ("link", 4, _STEPS), ("own", 4)))
-    e, v, played = *casadi.vertsplit(state), []
-    for each in casadi.horzsplit(link):
-        e, v, seen = _step(e, v, casadi.vertsplit(each), casadi.vertsplit(own), loose, casadi)
-        played.append(casadi.vertcat(*seen))
-    steps = casadi.Function("steps", [state, link, own], [casadi.vertcat(e, v), casadi.horzcat(*played)])
-    return steps.mapaccum("all", count)
 
 
 def without_drive_train(scene: Scene, k: int, rotor: float) -> dict[str, float]:

@@ -13,7 +13,7 @@ from typing import TypeAlias
 import numpy as np
 
 from identification.arrays import Array
-from identification.diagnosis.runs.link_side import LinkSide, Train, link_side, swings
+from identification.diagnosis.runs.link_side import LinkSide, Train, link_side, swings_in_gaps
 from identification.diagnosis.runs.prepared import windowed
 from identification.diagnosis.runs.rotor import rotor_inertia
 from identification.diagnosis.runs.scene import Scene
@@ -136,16 +136,23 @@ class _Played:
 
     def __init__(self, sides: Sequence[LinkSide], trains: Sequence[Array]) -> None:
         self._trains, count = trains, _samples(sides[0].scene)
-        self._torques = np.empty((count, len(sides), trains[0].shape[1]))
+        self._torques = np.empty((len(sides), trains[0].shape[1], count))
         # A drive train too stiff for the samples runs away; it is like nothing.
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            for i, torque in enumerate(swings(sides, [Train(*one) for one in trains], count)):
-                self._torques[i] = torque
+            if np.any(trains[0][2]):
+                first = 0
+                for torques in swings_in_gaps(sides, [Train(*one) for one in trains], count):
+                    self._torques[:, :, first : first + len(torques)] = torques.transpose(1, 2, 0)
+                    first += len(torques)
+            else:
+                for torques, side, each in zip(self._torques, sides, trains, strict=True):
+                    for torque, one in zip(torques, each.T.tolist(), strict=True):
+                        torque[:] = side.swing(Train(*one), count)
 
     def most_alike(self, s: int, rows: Rows) -> tuple[float, tuple[float, ...]]:
         """The largest cosine of a swing along side s with the residual, and the combination that swings so."""
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            cosines = rows.cosines(self._torques[:, s].T)
+            cosines = rows.cosines(self._torques[s])
         known = np.where(np.isfinite(cosines), cosines, -np.inf)
         most = int(np.argmax(known))
         return float(known[most]), tuple(self._trains[s][:, most].tolist())
