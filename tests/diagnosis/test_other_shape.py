@@ -122,7 +122,7 @@ RIGHT = "  - {effect: stribeck_friction, joint: 2, values: {vs: 0.15 rad/s}}\n"
         pytest.param(
             stribeck, SLOW.replace("0.6", "0.002"), {"vs": pytest.approx(0.15, rel=0.05)}, marks=pytest.mark.long
         ),
-        (stribeck, RIGHT, {}),
+        pytest.param(stribeck, RIGHT, {}, marks=pytest.mark.long),
         (one_way, RIGHT, {}),
     ],
 )
