@@ -85,6 +85,11 @@ class Identification:
         """The robot as its file says."""
         return self.regressors.model.robot
 
+    @property
+    def essential_names(self) -> tuple[str, ...]:
+        """Parameters that the essential model keeps and the data show by themselves, not in sums alone."""
+        return tuple(name for name in self.essential.sought if name not in self.full.solution.hidden)
+
     def noting(self, more: Iterable[str]) -> Identification:
         """The same with ``more`` to be told."""
         return replace(self, notes=(*self.notes, *more))

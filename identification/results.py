@@ -154,7 +154,7 @@ def _parameters(found: Identification, estimate: Estimate) -> dict[str, Any]:
             "value": None if name in solution.hidden else solution.values[name],
             "std": solution.std(name),
             "relative_std_percent": solution.relative_std(name),
-            "essential": name in found.essential.sought,
+            "essential": name in found.essential_names,
             "fixed": name in found.options.fixed,
             "identifiable": name not in solution.hidden,
             "unit": unit,
