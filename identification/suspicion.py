@@ -80,18 +80,26 @@ def suspect(runs: Sequence[Sampled], regressors: Regressors, residuals: Residual
 
 
 def beyond(train: Residuals, test: Residuals, numbers: Sequence[int]) -> list[str]:
-    """What is to be told of joints that runs which test show far worse than those that are fitted."""
-    pairs = {k: (one, test.per_joint[k]) for k, one in train.per_joint.items() if one.rows and test.per_joint[k].rows}
+    """What is to be told of joints that runs which test show far worse than those that are fitted, or alone."""
+    tested = {k: one.relative_to_mean for k, one in test.per_joint.items() if one.rows}
+    fitted = {k: one.relative_to_mean for k, one in train.per_joint.items() if one.rows}
     far = [
-        f"joint {numbers[k]} ({one.relative_to_mean:.2g} % of its spread fitted, {other.relative_to_mean:.2g} % tested)"
-        for k, (one, other) in pairs.items()
-        if other.relative_to_mean > max(_FURTHER * one.relative_to_mean, _DOUBTFUL)
+        f"joint {numbers[k]} ({fitted[k]:.2g} % of its spread fitted, {left:.2g} % tested)"
+        for k, left in tested.items()
+        if k in fitted and left > max(_FURTHER * fitted[k], _DOUBTFUL)
+    ]
+    unseen = [
+        f"the fitted runs have no rows of joint {numbers[k]}: {left:.3g} % of its torque's spread is unexplained in the "
+        "runs that test"
+        for k, left in tested.items()
+        if k not in fitted and left > _DOUBTFUL
     ]
     if not far:
-        return []
+        return unseen
     return [
         f"the runs that test are explained far worse on {listed(far)}: they go where the fitted ones do not, or are of "
-        "another state of the robot"
+        "another state of the robot",
+        *unseen,
     ]
 
 
