@@ -89,8 +89,8 @@ def beyond(train: Residuals, test: Residuals, numbers: Sequence[int]) -> list[st
         if k in fitted and left > max(_FURTHER * fitted[k], _DOUBTFUL)
     ]
     unseen = [
-        f"the fitted runs have no rows of joint {numbers[k]}: {left:.3g} % of its torque's spread is unexplained in the "
-        "runs that test"
+        f"the fitted runs have no rows of joint {numbers[k]}: {left:.3g} % of its torque's spread is unexplained in "
+        "the runs that test"
         for k, left in tested.items()
         if k not in fitted and left > _DOUBTFUL
     ]
