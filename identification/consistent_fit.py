@@ -19,6 +19,7 @@ from generator.robot.parameters import INERTIAL_STEMS
 from generator.symbolic.pseudo_inertia import of_body, uniform_bar
 from identification.arrays import Array
 from identification.inverse_model import Identification
+from identification.left_open import LeftOpen, left_open, settled, told
 from identification.residuals import Residuals, residuals
 from identification.sidecar import Payload
 
@@ -41,7 +42,7 @@ _LEAST_RADIUS = 0.02
 class ConsistentFit:
     """``standard`` parameters by name [SI], payloads' among them, ``base`` ones, and what they leave of the torques.
 
-    ``prior`` tells whether bodies were known beforehand.
+    ``prior`` tells whether bodies were known beforehand, ``open`` what the rows say nothing of.
     """
 
     standard: Mapping[str, float]
@@ -50,6 +51,7 @@ class ConsistentFit:
     prior: bool
     train: Residuals
     test: Residuals | None
+    open: LeftOpen
 
 
 def consistent_fit(found: Identification, prior: Mapping[str, float] | None, weight: float) -> ConsistentFit:
@@ -93,14 +95,23 @@ def consistent_fit(found: Identification, prior: Mapping[str, float] | None, wei
     for body in bodies:
         _raise_to_possible(body, {name: one for name, one in s.items() if name not in found.problem.fixed}, s)
     standard = {name: float(variable.value) for name, variable in s.items()}
+    for name, value in settled(model, found.problem.names, R, standard, prior or {}).items():
+        standard[name] = s[name].value = value
     at = dict(found.problem.fixed) | {name: float(one.value) for name, one in values.items()}
     train = residuals([f for run in found.train for f in run.factors], at)
     test = residuals([f for run in found.test for f in run.factors], at) if found.test else None
-    return ConsistentFit(standard, {name: at[name] for name in base}, weight, prior is not None, train, test)
+    open_ = left_open(model, found.problem.names, R)
+    return ConsistentFit(standard, {name: at[name] for name in base}, weight, prior is not None, train, test, open_)
 
 
 def doubts(found: Identification, fit: ConsistentFit) -> list[str]:
-    """Torques that free parameters explain and no bodies do are another robot's, or of wrong sign or order."""
+    """Notes on what the rows leave open; torques that free parameters explain and no bodies do are another robot's, or
+    of wrong sign or order.
+    """
+    return [*told(fit.open, fit.standard, fit.prior), *_impossible(found, fit)]
+
+
+def _impossible(found: Identification, fit: ConsistentFit) -> list[str]:
     free, possible = (one.train.total.relative_to_mean for one in (found.full, fit))
     if possible < _POOR or possible < _POORER * free:
         return []

@@ -12,6 +12,7 @@ from generator.errors import InputError
 from generator.robot.description import Robot
 from generator.words import listed
 from identification import recipes
+from identification.agreement import agreement, of_one_sign
 from identification.bootstrap import bootstrapped
 from identification.dataset import Run, load
 from identification.essential import GROWTH, RATIO, essential
@@ -85,6 +86,11 @@ class Identification:
         """The robot as its file says."""
         return self.regressors.model.robot
 
+    @property
+    def essential_names(self) -> tuple[str, ...]:
+        """Parameters that the essential model keeps and the data show by themselves, not in sums alone."""
+        return tuple(name for name in self.essential.sought if name not in self.full.solution.hidden)
+
     def noting(self, more: Iterable[str]) -> Identification:
         """The same with ``more`` to be told."""
         return replace(self, notes=(*self.notes, *more))
@@ -130,6 +136,8 @@ def identify(
     _check_rows(factors, sampled_runs)
     problem, told = _separable(posed(factors), _payloads(trained))
     notes += told
+    notes += agreement(trained, problem, regressors.model)
+    plain = problem
     problem, solution, told = _solved(problem, trained, options)
     notes += told
     full = _estimate(problem, solution, factors, tests)
@@ -141,6 +149,7 @@ def identify(
         ordered([one.sampled for one in tried], regressors, full.test)
     for one in tried:
         opposed(one.sampled.run.place, one.factors, solution.values)
+        of_one_sign(one, plain, regressors.model)
     best = _estimate(*essential(problem, options.ratio, options.growth), factors, tests)
     notes += _doubts(regressors, full, best)
     return Identification(regressors, options, recipe, trained, tried, problem, full, best, tuple(notes))

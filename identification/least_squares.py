@@ -11,13 +11,11 @@ from numpy.typing import NDArray
 from generator.words import listed
 from identification.arrays import Array
 from identification.factors import Factor, triangular
-from identification.rank import nonzero, not_identifiable
+from identification.rank import nonzero, not_identifiable, silent
 
 #: Residuals that are rounding, in parts of the torques, and the smallest number that one may divide by.
 _ROUNDING, _TINY = 1e-12, 1e-300
 _REWEIGHTINGS = 2
-#: Length of a column that shows nothing, in parts of the longest.
-_SILENT = 1e-12
 
 
 @dataclass(frozen=True)
@@ -177,26 +175,21 @@ class _Solved:
         R, z = reduced[:, :-1], reduced[:, -1]
         count = R.shape[1]
         size = np.linalg.norm(R, axis=0)
-        silent = _silent(size)
-        scale = np.where(silent, 1.0, size)
-        scaled = np.where(silent, 0.0, R / scale)
-        if not count or silent.all():
-            return cls(np.zeros(count), np.zeros((count, count)), silent, np.inf, np.inf, 0)
+        dark = silent(size)
+        scale = np.where(dark, 1.0, size)
+        scaled = np.where(dark, 0.0, R / scale)
+        if not count or dark.all():
+            return cls(np.zeros(count), np.zeros((count, count)), dark, np.inf, np.inf, 0)
         U, s, Vt = np.linalg.svd(scaled, full_matrices=True)
         s = np.concatenate([s, np.zeros(count - len(s))])
         rank = int(nonzero(s).sum())
         V, s_seen = Vt[:rank].T, s[:rank]
-        chi = np.where(silent, 0.0, (V @ ((U[:, :rank].T @ z) / s_seen)) / scale)
+        chi = np.where(dark, 0.0, (V @ ((U[:, :rank].T @ z) / s_seen)) / scale)
         inverse = ((V / s_seen**2) @ V.T) / np.outer(scale, scale)
-        hidden = silent | not_identifiable(Vt[rank:])
+        hidden = dark | not_identifiable(Vt[rank:])
         whole = rank == count
         condition = float(np.linalg.cond(R)) if whole else np.inf
         return cls(chi, inverse, hidden, condition, float(s[0] / s_seen[-1]) if whole else np.inf, rank)
-
-
-def _silent(size: Array) -> NDArray[np.bool_]:
-    """Which columns, by their lengths (p), are zero but for rounding."""
-    return np.asarray(size <= _SILENT * size.max(initial=0.0))
 
 
 def _error(R: Array, chi: Array) -> float:
@@ -207,7 +200,7 @@ def _error(R: Array, chi: Array) -> float:
 def _rank(R: Array) -> int:
     """Number of independent columns, each taken in units of its length."""
     size = np.linalg.norm(R, axis=0)
-    live = R[:, ~_silent(size)]
+    live = R[:, ~silent(size)]
     if not live.size:
         return 0
     s = np.linalg.svd(live / np.linalg.norm(live, axis=0), compute_uv=False)

@@ -11,6 +11,8 @@ from identification.arrays import Array
 RANK = 1e-8
 #: Part of a parameter in a direction that no row shows, from which it is not identifiable.
 _INVOLVED = 1e-4
+#: Length of a column that shows nothing, in parts of the longest.
+_SILENT = 1e-12
 
 
 def nonzero(singular_values: Array, least: float = RANK) -> NDArray[np.bool_]:
@@ -26,4 +28,10 @@ def not_identifiable(unseen: Array) -> NDArray[np.bool_]:
     shows; none where there are none of these.
     """
     result: NDArray[np.bool_] = np.abs(unseen).max(axis=0, initial=0.0) > _INVOLVED
+    return result
+
+
+def silent(size: Array) -> NDArray[np.bool_]:
+    """Which columns, by their lengths ``size`` (p), are zero but for rounding."""
+    result: NDArray[np.bool_] = size <= _SILENT * size.max(initial=0.0)
     return result

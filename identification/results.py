@@ -17,7 +17,7 @@ from identification.consistent_fit import ConsistentFit
 from identification.inverse_model import Estimate, Identification
 from identification.robot_file import with_parameter_set
 from identification.sensitivity import Variation
-from identification.set_values import identified_values
+from identification.set_values import consistent_values, identified_values
 from identification.sidecar import UNITS
 
 #: Names of the files, and of the parameter sets in the robot file.
@@ -107,10 +107,8 @@ def parameter_sets(found: Identification, consistent: ConsistentFit | None = Non
         ParameterSet(ESSENTIAL, "essential parameters alone", source, _set(found.essential, units, given)),
     ]
     if consistent is not None:
-        values = {
-            parameter.name: ParameterValue(consistent.standard[parameter.name], parameter.unit)
-            for parameter in found.regressors.model.standard_parameters
-        }
+        standard = {parameter.name: parameter.unit for parameter in found.regressors.model.standard_parameters}
+        values = consistent_values(standard, consistent.standard, consistent.open.unknown)
         sets.append(ParameterSet(CONSISTENT, "standard parameters of bodies that can be", source, values))
     return tuple(sets)
 
@@ -156,7 +154,7 @@ def _parameters(found: Identification, estimate: Estimate) -> dict[str, Any]:
             "value": None if name in solution.hidden else solution.values[name],
             "std": solution.std(name),
             "relative_std_percent": solution.relative_std(name),
-            "essential": name in found.essential.sought,
+            "essential": name in found.essential_names,
             "fixed": name in found.options.fixed,
             "identifiable": name not in solution.hidden,
             "unit": unit,
@@ -200,11 +198,20 @@ def _residual(found: Identification, estimate: Estimate) -> dict[str, Any]:
 def _consistent(found: Identification, fit: ConsistentFit) -> dict[str, Any]:
     model = found.regressors.model
     numbers = found.robot.numbers
+    unknown = fit.open.unknown
+    hidden = {name for name, terms in model.grouping.numeric().items() if terms and unknown.issuperset(terms)}
+    standard, base = (
+        {p.name: {"value": None if p.name in out else of[p.name], "unit": p.unit} for p in parameters}
+        for parameters, of, out in (
+            (model.standard_parameters, fit.standard, unknown),
+            (model.base_parameters, fit.base, hidden),
+        )
+    )
     return {
         "weight": fit.weight,
         "prior": fit.prior,
-        "parameters": {p.name: {"value": fit.standard[p.name], "unit": p.unit} for p in model.standard_parameters},
-        "base_parameters": {p.name: {"value": fit.base[p.name], "unit": p.unit} for p in model.base_parameters},
+        "parameters": standard,
+        "base_parameters": base,
         "residual": {
             "train": outcome.norms_by_number(fit.train, numbers),
             "test": None if fit.test is None else outcome.norms_by_number(fit.test, numbers),

@@ -8,7 +8,7 @@ nothing; a parameter that shows in no sum has no place in it.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 
 from generator.robot.description import ParameterValue
 
@@ -38,6 +38,19 @@ def identified_values(
         name: ParameterValue(given[name], unit, note=_GIVEN)
         if name in given
         else _identified(values[name], std(name), unit)
+        for name, unit in units.items()
+    }
+    return {name: one for name, one in written.items() if one is not None}
+
+
+def consistent_values(
+    units: Mapping[str, str], values: Mapping[str, float], unknown: Collection[str]
+) -> dict[str, ParameterValue]:
+    """Values of consistent parameters as a set holds them, by the ``units`` of all; the data do not show those that are
+    ``unknown`` by themselves.
+    """
+    written = {
+        name: _identified(values[name], math.inf, unit) if name in unknown else ParameterValue(values[name], unit)
         for name, unit in units.items()
     }
     return {name: one for name, one in written.items() if one is not None}

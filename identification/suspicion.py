@@ -80,18 +80,26 @@ def suspect(runs: Sequence[Sampled], regressors: Regressors, residuals: Residual
 
 
 def beyond(train: Residuals, test: Residuals, numbers: Sequence[int]) -> list[str]:
-    """What is to be told of joints that runs which test show far worse than those that are fitted."""
-    pairs = {k: (one, test.per_joint[k]) for k, one in train.per_joint.items() if one.rows and test.per_joint[k].rows}
+    """What is to be told of joints that runs which test show far worse than those that are fitted, or alone."""
+    tested = {k: one.relative_to_mean for k, one in test.per_joint.items() if one.rows}
+    fitted = {k: one.relative_to_mean for k, one in train.per_joint.items() if one.rows}
     far = [
-        f"joint {numbers[k]} ({one.relative_to_mean:.2g} % of its spread fitted, {other.relative_to_mean:.2g} % tested)"
-        for k, (one, other) in pairs.items()
-        if other.relative_to_mean > max(_FURTHER * one.relative_to_mean, _DOUBTFUL)
+        f"joint {numbers[k]} ({fitted[k]:.2g} % of its spread fitted, {left:.2g} % tested)"
+        for k, left in tested.items()
+        if k in fitted and left > max(_FURTHER * fitted[k], _DOUBTFUL)
+    ]
+    unseen = [
+        f"the fitted runs have no rows of joint {numbers[k]}: {left:.3g} % of its torque's spread is unexplained in "
+        "the runs that test"
+        for k, left in tested.items()
+        if k not in fitted and left > _DOUBTFUL
     ]
     if not far:
-        return []
+        return unseen
     return [
         f"the runs that test are explained far worse on {listed(far)}: they go where the fitted ones do not, or are of "
-        "another state of the robot"
+        "another state of the robot",
+        *unseen,
     ]
 
 
@@ -117,20 +125,28 @@ def directed(
     joints or of one: the torques have the other sign. ``std`` are standard deviations by name, of what was fitted and
     shows. One of joints number ``aside`` tells nothing by itself.
     """
-    storing = {name for one in model.effects if one.effect.potential_energy for name in one.names}
-    bounded = [
-        one for one in model.base_parameters if one.lower == 0.0 and std.get(one.name) and one.name not in storing
-    ]
-    sizes = {one.name: values[one.name] / std[one.name] for one in bounded}
+    sizes = above_zero(model, values, std)
     moving = set(model.robot.numbers)
     for joints in (moving, *({number} for number in sorted(moving.difference(aside)))):
-        mine = [sizes[one.name] for one in bounded if one.joint in joints]
+        mine = [size for joint, size in sizes if joint in joints]
         sure = [size for size in mine if abs(size) > _SURE]
         likely = [size for size in mine if abs(size) > _LIKELY]
         if len(likely) >= _SEVERAL and max(likely) < 0 and sure:
             whose = "" if joints == moving else f" of joint {min(joints)}"
             problem = f"all friction and inertia that the torques{whose} show alone is negative"
             raise InputError(place, problem, _SENSE)
+
+
+def above_zero(model: Model, values: Mapping[str, float], std: Mapping[str, float]) -> list[tuple[int, float]]:
+    """Friction and inertia that cannot be negative and a fit shows, each with its joint's number, in its standard
+    deviations ``std``, those by name of what was fitted and shows.
+    """
+    storing = {name for one in model.effects if one.effect.potential_energy for name in one.names}
+    return [
+        (one.joint, values[one.name] / std[one.name])
+        for one in model.base_parameters
+        if one.lower == 0.0 and std.get(one.name) and one.name not in storing
+    ]
 
 
 def of_one_sense(runs: Sequence[Sampled], regressors: Regressors, residuals: Residuals) -> None:
@@ -152,9 +168,9 @@ def opposed(place: Place, run: Sequence[Factor], values: Mapping[str, float]) ->
         raise another_sign(place, "those that are fitted")
 
 
-def another_sign(place: Place, whose: str) -> InputError:
-    """That torques of a run have another sign than ``whose``."""
-    problem = f"the torques have another sign than {whose}"
+def another_sign(place: Place, whose: str, of: str = "") -> InputError:
+    """That torques of a run, those ``of`` a joint alone, have another sign than ``whose``."""
+    problem = f"the torques{of} have another sign than {whose}"
     return InputError(place, problem, "one sign in all runs; a sidecar can change it")
 
 
@@ -356,9 +372,12 @@ class _Thinned:
         return {k: 100 * x / spread[k] if spread[k] else 0.0 for k, x in self.left(mix).items() if k in spread}
 
     def left(self, mix: Array) -> Mapping[int, float]:
-        """The joints' residuals [N m, N] with torques that are ``mix`` (n x n) times the given ones."""
+        """Residuals [N m, N] of joints that have rows, with torques that are ``mix`` (n x n) times the given ones."""
         factors = []
         for k, (R, names) in enumerate(zip(self._factors, self._structure, strict=True)):
+            # What is left of no rows is rounding, by the size of all torques.
+            if not self._used[k].any():
+                continue
             mixed = np.column_stack([R[:, : len(names)], R[:, len(names) :] @ mix[k]])
             factors.append(Factor(k, names, mixed, int(self._rows[k]), 0.0))
         return Problem(tuple(factors), self._names, {}, weighted=True).solve().sigma

@@ -13,10 +13,12 @@ from generator.symbolic.pseudo_inertia import of_body, uniform_bar
 from identification.consistency import grouped
 from identification.consistent_fit import ConsistentFit, consistent_fit, doubts
 from identification.inverse_model import Identification, Options, identify
-from identification.observation import Regressors
+from identification.left_open import left_open, told
+from identification.observation import Motion, Regressors
 from identification.recipes import Recipe
+from identification.results import CONSISTENT, document, parameter_sets
 from tests.bodies import STEMS
-from tests.recorded import Recorded, recorded
+from tests.recorded import Recorded, as_recorded, fourier, recorded, regressors
 
 #: Two bars with rotors; what the base parameters are made of.
 BARS = {1: uniform_bar(20.0, (0, 0, 0), (0.5, 0, 0), 0.1), 2: uniform_bar(6.0, (0, 0, 0), (0.4, 0.05, 0), 0.08)}
@@ -150,3 +152,61 @@ def test_an_unknown_inertia_is_that_of_a_ball_as_heavy_as_the_bodies(folder: Pat
     fit = consistent_fit(found(lift, run, folder / "run.csv"), None, WEIGHT)
     assert [fit.standard[name] for name in ("M1", "Ia1")] == pytest.approx([20, 3], rel=0.01)
     assert [fit.standard[f"{stem}1"] for stem in ("XX", "YY", "ZZ")] == pytest.approx([3.6] * 3, rel=0.02)
+
+
+#: What nothing shows of the second joint's drive train where it stands still.
+STILL = ("Ia2", "Fv2", "Fc2", "Off2")
+
+
+@pytest.mark.parametrize("prior", [None, STANDARD])
+def test_what_no_row_shows_is_no_number_that_looks_identified(
+    prior: dict[str, float] | None, links: Regressors, folder: Path
+) -> None:
+    """The second joint stands still, and the rows of dry friction there are left out."""
+    t, moving = fourier(links.model.robot, 20.0, 200.0)
+    motion = Motion(*(np.array([[1.0], [0.0]]) * one for one in (moving.q, moving.qd, moving.qdd)))
+    run = as_recorded(links, t, motion.q, links.torques(grouped(links.model, STANDARD), motion))
+    one = found(links, run, folder / "still.csv")
+    fit = consistent_fit(one, prior, WEIGHT)
+    assert possible(links, fit)
+    assert fit.open.unseen == STILL
+    assert fit.open.shared == ()
+    assert [fit.standard[name] for name in STILL] == [0.0 if prior is None else prior[name] for name in STILL]
+    assert fit.train.total.norm < 1.01 * one.full.train.total.norm
+    (written,) = (each.values for each in parameter_sets(one, fit) if each.name == CONSISTENT)
+    assert "Fv1" in written
+    assert written["Fv1"].relative_std is None
+    assert written.keys() & set(STILL) == (set() if prior is None else set(STILL))
+    assert all(written[name].relative_std == 1e5 for name in written.keys() & set(STILL))
+    stated = document(one, fit)["consistent"]
+    assert [stated[kind][name]["value"] for kind in ("parameters", "base_parameters") for name in STILL] == [None] * 8
+    (note,) = doubts(one, fit)
+    assert note.startswith("no motion in the data shows Ia2, Fv2, Fc2 and Off2: the physically consistent set has ")
+
+
+@pytest.mark.parametrize(("offset", "expected"), [(-3.0, (8.5, 8.5)), (-50.0, (0.0, -30.0))])
+def test_what_only_sums_show_is_the_smallest_that_makes_them(
+    offset: float, expected: tuple[float, float], folder: Path
+) -> None:
+    """A carriage that never turns back: Coulomb friction, which is not negative, and offset are one."""
+    of = regressors("emps")
+    t = np.arange(0, 20, 0.002)
+    w = 2 * np.pi * 0.2
+    q, qd, qdd = 0.1 * t - 0.04 / w * np.cos(w * t) - 1.0, 0.1 + 0.04 * np.sin(w * t), 0.04 * w * np.cos(w * t)
+    truth = {"M1R": 95.0, "Fv1": 200.0, "Fc1": 20.0, "Off1": offset}
+    tau = of.torques(truth, Motion(*(x[None] for x in (q, qd, qdd))))
+    tau += 0.5 * np.random.default_rng(1).normal(size=tau.shape)
+    one = found(of, Recorded({"t": t, "q1": q, "tau1": tau[0]}), folder / "onward.csv")
+    fit = consistent_fit(one, None, WEIGHT)
+    assert set(fit.open.shared) == {"Fc1", "Off1"}
+    assert (fit.standard["Fc1"], fit.standard["Off1"]) == pytest.approx(expected, abs=0.2)
+    assert fit.standard["Fc1"] >= -1e-6
+    assert fit.train.total.norm < 1.01 * one.full.train.total.norm
+
+
+def test_a_body_of_which_nothing_shows_is_told() -> None:
+    of = regressors("emps")
+    dark = left_open(of.model, of.names, np.zeros((3, len(of.names))))
+    assert dark.bodies == (1,)
+    assert set(dark.unseen) == {"Fv1", "Fc1", "Off1"}
+    assert told(dark, dict.fromkeys(dark.unseen, 0.0), prior=False)[-1].endswith("shows body 1: each is a ball")

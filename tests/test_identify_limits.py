@@ -16,7 +16,7 @@ from identification.fixing import fixed
 from identification.inverse_model import Options, identify
 from identification.observation import Motion, Regressors
 from identification.recipes import Recipe
-from identification.results import parameter_sets
+from identification.results import document, parameter_sets
 from identification.sensitivity import sensitivity
 from tests.commands import command
 from tests.recorded import (
@@ -158,6 +158,9 @@ def test_the_set_makes_the_torques_of_runs_that_show_parameters_only_in_sums(lin
     written = parameter_sets(found)[0].values
     assert {"Fv2", "Fc2"}.isdisjoint(written)
     hidden = set(found.full.solution.hidden) & written.keys()
+    assert hidden & set(found.essential.sought)
+    stated = document(found)["parameters"]
+    assert not [name for name, one in stated.items() if one["essential"] and one["value"] is None]
     assert {"ZZ1R", "MX1R", "ZZ2", "MX2"} <= hidden
     assert {written[name].relative_std for name in hidden} == {1e5}
     (told,) = (note for note in found.notes if "one by one" in note)

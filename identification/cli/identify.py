@@ -231,7 +231,7 @@ def _recipe(arguments: argparse.Namespace, regressors: Regressors) -> Recipe:
 def _summary(found: Identification, consistent: ConsistentFit | None) -> str:
     lines = [
         f"{found.robot.name}: {plural(len(found.full.sought), 'parameter')}, "
-        f"{len(found.essential.sought)} of them essential"
+        f"{len(found.essential_names)} of them essential"
     ]
     lines += [f"note: {note}" for note in found.notes]
     solution = found.full.solution
@@ -241,7 +241,7 @@ def _summary(found: Identification, consistent: ConsistentFit | None) -> str:
     for name in names:
         hidden = name in solution.hidden
         value = "unknown" if hidden else f"{solution.values[name]:.7g}"
-        mark = "fixed" if name not in found.full.sought else "yes" if name in found.essential.sought else "no"
+        mark = "fixed" if name not in found.full.sought else "yes" if name in found.essential_names else "no"
         lines.append(
             f"{name.ljust(width)} {value:>12} {solution.std(name):>10.4g} {solution.relative_std(name):>9.4g}  {mark}"
         )

@@ -21,7 +21,7 @@ def render(subject: Subject) -> Markup:
     )
     if subject.consistent is not None:
         text += " The consistent value is the same parameter of bodies that matter can have."
-    beside = {} if subject.consistent is None else {"consistent value": subject.consistent.base}
+    beside = {} if subject.consistent is None else {"consistent value": _consistent(subject)}
     table = parameter_table(subject.results["parameters"], _states(subject), beside)
     return join(element("p", text), table, _payloads(subject))
 
@@ -29,19 +29,27 @@ def render(subject: Subject) -> Markup:
 def _states(subject: Subject) -> dict[str, Content]:
     result: dict[str, Content] = {}
     bounds = {p.name: p.lower for p in subject.found.regressors.model.base_parameters}
+    consistent = _consistent(subject)
     for name, one in subject.results["parameters"].items():
         lower, value = bounds[name], one["value"]
         usual = "given" if one["fixed"] else "" if one["essential"] or value is None else "not essential"
         doubts = [] if one["identifiable"] else [f"not excited: {HIDDEN}"]
         if lower is not None and value is not None and value < lower:
             doubts.append("below its bound")
-        if lower is not None and subject.consistent is not None:
+        if lower is not None and name in consistent:
             scale = abs(value or 0.0) + (one["std"] if one["identifiable"] else 0.0)
-            if subject.consistent.base[name] - lower <= _AT * scale:
+            if consistent[name] - lower <= _AT * scale:
                 doubts.append("consistent value at its bound")
         result[name] = [element("span", usual, class_="faint"), " "] if usual else []
         result[name] = [result[name], element("span", "; ".join(doubts), class_="state")]
     return result
+
+
+def _consistent(subject: Subject) -> dict[str, float]:
+    """Base parameters of the consistent model that the data show."""
+    model = subject.results["consistent"]
+    known = {} if model is None else model["base_parameters"]
+    return {name: one["value"] for name, one in known.items() if one["value"] is not None}
 
 
 def _payloads(subject: Subject) -> Markup | None:

@@ -1,0 +1,139 @@
+"""What the rows leave open of standard parameters, and the values that it has in a physically consistent set.
+
+What rows leave open of the bodies is settled by their prior ones. Nothing settles it for friction and springs: a solver
+may stop at any number. So a parameter of which no row shows anything takes its prior value, or zero, and those that
+show only in sums are, of all that make the same torques, the nearest to theirs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import nnls
+
+from generator.effects.library import names_of_effects
+from generator.robot.parameters import INERTIAL_STEMS
+from generator.symbolic.model import Model
+from generator.words import listed, numbered
+from identification.arrays import Array
+from identification.rank import nonzero, not_identifiable, silent
+
+
+@dataclass(frozen=True)
+class LeftOpen:
+    """Effects' parameters by name that no row shows, ``unseen``, and that rows show in sums alone, ``shared``; numbers
+    of the ``bodies`` that act in torques and of which no row shows anything.
+    """
+
+    unseen: tuple[str, ...] = ()
+    shared: tuple[str, ...] = ()
+    bodies: tuple[int, ...] = ()
+
+    @property
+    def unknown(self) -> frozenset[str]:
+        """Effects' parameters that have no value by themselves."""
+        return frozenset((*self.unseen, *self.shared))
+
+
+def left_open(model: Model, names: Sequence[str], R: Array) -> LeftOpen:
+    """What rows ``R`` (r x p) of the estimated base parameters ``names`` (p) leave open; what is a part of a base
+    parameter that was given instead is not.
+    """
+    columns, free = _columns(model, names, R), _free(model, names)
+    zero = {name for name, column in columns.items() if not column.any()}
+    bodies = {
+        joint.number: [name for stem in INERTIAL_STEMS if (name := f"{stem}{joint.number}") in columns]
+        for joint in model.robot.bodies
+    }
+    seen = [name for name in free if name in columns and name not in zero]
+    _, directions = _unseen(_matrix(columns, seen))
+    shared = [name for name, out in zip(seen, not_identifiable(directions), strict=True) if out]
+    return LeftOpen(
+        tuple(name for name in free if name not in seen),
+        tuple(shared),
+        tuple(number for number, ten in bodies.items() if ten and zero.issuperset(ten)),
+    )
+
+
+def settled(
+    model: Model, names: Sequence[str], R: Array, found: Mapping[str, float], prior: Mapping[str, float]
+) -> dict[str, float]:
+    """Effects' parameters that rows ``R`` (r x p) of the base parameters ``names`` (p) leave open, by name: the values
+    nearest to the ``prior``, or to zero, within their bounds, that make the same torques as those ``found``.
+    """
+    columns, open_ = _columns(model, names, R), left_open(model, names, R)
+    lower, upper = (
+        {p.name: none if bound is None else bound for p in model.standard_parameters for bound in [getattr(p, end)]}
+        for end, none in (("lower", -np.inf), ("upper", np.inf))
+    )
+    result = {name: float(np.clip(prior.get(name, 0.0), lower[name], upper[name])) for name in open_.unseen}
+    if not open_.shared:
+        return result
+    size, V = _unseen(_matrix(columns, open_.shared))
+    x, near, least, most = (np.array([of.get(n, 0.0) for n in open_.shared]) for of in (found, prior, lower, upper))
+    N = V.T / size[:, None]
+    nearest = x - N @ (V @ (size * (x - near)))
+    # A bound that a solver missed by rounding stays missed.
+    beyond = np.concatenate([np.minimum(least, x) - nearest, nearest - np.maximum(most, x)])
+    bounded = np.isfinite(beyond)
+    moved = nearest + N @ _shortest(np.concatenate([N, -N])[bounded], beyond[bounded])
+    return result | dict(zip(open_.shared, moved.tolist(), strict=True))
+
+
+def told(open_: LeftOpen, values: Mapping[str, float], prior: bool) -> list[str]:
+    """Notes on what is left open and what its consistent ``values`` are, with a ``prior`` or without."""
+    notes = []
+    zero, kept = ([name for name in open_.unseen if bool(values[name]) == some] for some in (False, True))
+    if zero:
+        notes.append(f"no motion in the data shows {listed(zero)}: the physically consistent set has none of them")
+    if kept:
+        notes.append(f"no motion in the data shows {listed(kept)}: the physically consistent set has them of the prior")
+    if open_.bodies:
+        like = "as the prior has it" if prior else "a ball"
+        notes.append(f"no motion in the data shows {numbered('body', open_.bodies, 'bodies')}: each is {like}")
+    return notes
+
+
+def _columns(model: Model, names: Sequence[str], R: Array) -> dict[str, Array]:
+    """Columns (r) of the standard parameters in rows ``R`` of base parameters; those zero that are but rounding."""
+    place = {name: k for k, name in enumerate(names)}
+    columns: dict[str, Array] = {}
+    for base, terms in model.grouping.numeric().items():
+        for name, coefficient in terms.items() if base in place else ():
+            columns[name] = columns.get(name, np.zeros(len(R))) + coefficient * R[:, place[base]]
+    dark = silent(np.array([np.linalg.norm(column) for column in columns.values()]))
+    return {name: 0.0 * one if out else one for (name, one), out in zip(columns.items(), dark, strict=True)}
+
+
+def _free(model: Model, names: Sequence[str]) -> list[str]:
+    """Effects' parameters that are no part of base parameters other than ``names``."""
+    groupings = model.grouping.numeric()
+    given = {name for base, terms in groupings.items() if base not in names for name in terms}
+    effects = names_of_effects(model.robot)
+    return [p.name for p in model.standard_parameters if p.name in effects and p.name not in given]
+
+
+def _matrix(columns: Mapping[str, Array], names: Sequence[str]) -> Array:
+    rows = len(next(iter(columns.values()), np.zeros(0)))
+    return np.column_stack([columns[name] for name in names]) if names else np.zeros((rows, 0))
+
+
+def _unseen(W: Array) -> tuple[Array, Array]:
+    """Lengths (e) of columns ``W`` (r x e), none of them zero, and the directions (k x e, of unit length) in parameters
+    times these lengths that no row shows.
+    """
+    size = np.linalg.norm(W, axis=0)
+    _, s, Vt = np.linalg.svd(W / size)
+    return size, Vt[int(nonzero(s).sum()) :]
+
+
+def _shortest(G: Array, h: Array) -> Array:
+    """The shortest x with G x >= h, by non-negative least squares (Lawson and Hanson 1974, Solving Least Squares
+    Problems, chapter 23).
+    """
+    E = np.concatenate([G.T, h[None]])
+    f = np.eye(len(E))[-1]
+    r = E @ nnls(E, f)[0] - f
+    return np.asarray(-r[:-1] / r[-1])
