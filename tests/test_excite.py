@@ -311,6 +311,21 @@ def test_of_a_file_that_cannot_be_played_the_command_says_so(
     assert PLAYED[ONE_OF_TWO] in done.err.splitlines()[-1]
 
 
+@pytest.mark.parametrize(("asked", "lasts"), [((), 25.0), (("--duration", "5"), 5.0)])
+def test_a_file_is_played_to_its_end(
+    asked: tuple[str, ...], lasts: float, file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A run without a length of its own lasts 20 s: one that has one is as long, but for the last of its samples."""
+    t = 3.0 + np.arange(251) / 10
+    q = 0.1 * (1 - np.cos(2 * np.pi * (t - t[0]) / 5))
+    np.savetxt(tmp_path / "long.csv", np.stack([t, q, q], axis=1), delimiter=",", header="t,qr1,qr2", comments="")
+    words = ("--trajectory", "played", "--set", f"file={tmp_path / 'long.csv'}", *asked)
+    assert command("simulate", file, "--out", tmp_path / "a.csv", *words, capsys=capsys).status == 0
+    made = csv.read(tmp_path / "a.csv").columns
+    assert made["t"][-1] == pytest.approx(lasts - 1e-3)
+    assert f"duration: {lasts:g}" in (tmp_path / "a.yaml").read_text()
+
+
 def test_positions_are_written_as_the_controller_counts_them(
     file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
