@@ -11,7 +11,7 @@ from generator.errors import InputError
 from generator.robot.description import PRISMATIC, Joint, Robot
 from identification.arrays import Array
 from identification.neighbours import ARITHMETIC, at_extremes
-from identification.recording import Where
+from identification.recording import A_PART, Where
 from identification.signals import Measured
 
 #: Beyond the limits, in parts of the range, that a position may be.
@@ -62,7 +62,7 @@ def whole(found: Measured, where: Where) -> None:
         if jumps.size:
             row = int(jumps[0]) + 1
             problem = f"{name} jumps by {x[row] - x[row - 1]:.4g} in this row alone"
-            raise InputError(where(row, name), problem, "rows without gaps; FILE@FROM:TO takes a part")
+            raise InputError(where(row, name), problem, f"rows without gaps; {A_PART}")
 
 
 def positions(q: Array, found: Measured, robot: Robot, period: float, where: Where, resting: bool = False) -> None:

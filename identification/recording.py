@@ -16,6 +16,9 @@ from identification.arrays import Array
 #: The place of a value by its row, from 0, and its column; of the column's name without a row.
 Where: TypeAlias = Callable[[int | None, str], Place]
 
+#: The way out of a fault in some rows alone.
+A_PART = "FILE@FROM:TO takes a part"
+
 _CHUNK = 1 << 20
 _WORD = re.compile(r"\w+")
 

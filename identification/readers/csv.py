@@ -60,11 +60,11 @@ def read(path: Path) -> Recording:
     file = str(path)
     layout = _layout(file, path)
     form = layout.form
-    rows, complete = form.extent()
+    rows, cut = form.extent()
     notes: tuple[str, ...] = ()
-    if not complete:
+    if cut:
         line = form.header + 1 + rows
-        notes = (f"{file}:{line}: the last line has no end and is left out, the file may be cut off there",)
+        notes = (f"{file}:{line}: the last line has {cut} and is left out, the file may be cut off there",)
         rows -= 1
     if not rows:
         return Recording(file, {name: np.empty(0) for name in form.names}, digest(path), layout.place, notes)
