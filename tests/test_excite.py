@@ -258,6 +258,23 @@ def test_a_wrong_option_is_one_line(
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.parametrize(
+    ("sets", "expected"),
+    [
+        ({}, "one in section parameters of the robot file, which has none; estimates of masses and friction will do"),
+        ({"rough": TRUTH}, "one of rough"),
+    ],
+)
+def test_a_robot_without_the_default_set_is_told_before_the_search(
+    sets: dict[str, dict[str, float]], expected: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "bare.yaml").write_text(LIMITED + (parameters_text(sets) if sets else ""))
+    told = f"error: --parameters:1:1: two_links has no parameter set 'twin', the default, expected {expected}"
+    for name in ("excite", "simulate"):
+        done = command(name, tmp_path / "bare.yaml", "--out", tmp_path / "out.csv", capsys=capsys)
+        assert (done.status, done.err.splitlines()) == (2, [told])
+
+
 def test_limits_that_no_motion_can_keep(file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for old, new, problem in (
         (
