@@ -11,13 +11,15 @@ from generator.errors import InputError
 from generator.robot.description import PRISMATIC, Joint, Robot
 from identification.arrays import Array
 from identification.neighbours import ARITHMETIC, at_extremes
-from identification.recording import Where
+from identification.recording import A_PART, Where
 from identification.signals import Measured
 
 #: Beyond the limits, in parts of the range, that a position may be.
 _BEYOND = 0.05
 #: Positions [rad] and speeds [rad/s, m/s] that no joint without limits reaches.
 _TURNS, _FAST, _JUMP = 4 * np.pi, 40.0, 100.0
+#: Parts of a run's samples up to which those outside are wrong ones, and beyond which they may be in another unit.
+_FEW, _MOST = 0.01, 0.5
 #: Size of a number in whatever unit that is none of a sensor.
 _HUGE = 1e30
 #: Steps of an encoder at once within a sample from which a motion is abrupt.
@@ -60,7 +62,7 @@ def whole(found: Measured, where: Where) -> None:
         if jumps.size:
             row = int(jumps[0]) + 1
             problem = f"{name} jumps by {x[row] - x[row - 1]:.4g} in this row alone"
-            raise InputError(where(row, name), problem, "rows without gaps; FILE@FROM:TO takes a part")
+            raise InputError(where(row, name), problem, f"rows without gaps; {A_PART}")
 
 
 def positions(q: Array, found: Measured, robot: Robot, period: float, where: Where, resting: bool = False) -> None:
@@ -90,18 +92,25 @@ def _inside(x: Array, joint: Joint, name: str, where: Where) -> None:
     if joint.limits is not None:
         lower, upper = joint.limits
         allowed = _BEYOND * (upper - lower)
-        bad = np.flatnonzero((x < lower - allowed) | (x > upper + allowed))
-        if bad.size:
-            row = int(bad[0])
-            turned = np.radians(x)
-            inside = np.abs(x).max() > 2 * np.pi and turned.min() >= lower - allowed and turned.max() <= upper + allowed
-            problem = f"{name} gives joint {joint.number} {x[row]:.6g} {unit}, outside of {lower:.4g} to {upper:.4g}"
-            hint = "; are these degrees?" if inside and unit == "rad" else "; is this a run of another robot?"
-            raise InputError(where(row, name), problem, f"{unit} within the robot's limits{hint}")
-    elif unit == "rad" and np.abs(x).max() > _TURNS:
-        row = int(np.argmax(np.abs(x) > _TURNS))
-        problem = f"{name} gives joint {joint.number} {x[row]:.6g} rad, more than two turns"
-        raise InputError(where(row, name), problem, "rad, or limits in the robot file; are these degrees?")
+        bad = (x < lower - allowed) | (x > upper + allowed)
+        turned = np.radians(x)
+        inside = np.abs(x).max() > 2 * np.pi and turned.min() >= lower - allowed and turned.max() <= upper + allowed
+        beyond, expected = f"outside of {lower:.4g} to {upper:.4g}", f"{unit} within the robot's limits"
+        hint = (
+            "are these degrees" if inside and unit == "rad" and bad.mean() > _MOST else "is this a run of another robot"
+        )
+    elif unit == "rad":
+        bad = np.abs(x) > _TURNS
+        beyond, expected = "more than two turns", "rad, or limits in the robot file"
+        hint = "are these degrees" if bad.mean() > _MOST else "does the joint turn on"
+    else:
+        return
+    if bad.any():
+        row = int(np.argmax(bad))
+        counted = f"in {bad.sum()} of {len(x)} samples, of which this is the first"
+        problem = f"{name} gives joint {joint.number} {x[row]:.6g} {unit}, {beyond}, {counted}"
+        hint = f"{hint}?" if bad.mean() > _FEW else "a wrong row may be deleted, it is a lost sample then"
+        raise InputError(where(row, name), problem, f"{expected}; {hint}")
 
 
 def _speed(x: Array, joint: Joint, name: str, period: float, where: Where) -> None:

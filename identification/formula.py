@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import reduce
 from typing import Any
 
@@ -18,6 +18,9 @@ from identification.arrays import Array
 from identification.recording import Recording
 from identification.signals import NAMES, meant
 
+#: What is told of times such as 12:03:04.
+_CLOCK = "; a time of day as seconds, 12:00:01.5 as 43201.5"
+
 
 @dataclass(frozen=True)
 class Formula:
@@ -27,9 +30,14 @@ class Formula:
     text: Text
 
     def values(self, recording: Recording) -> Array:
-        """The column (N); raises InputError where the file lacks a name of the formula."""
+        """The column (N); raises InputError where the file lacks a name of the formula, or holds words under it."""
         names = sorted(symbol.name for symbol in self.expression.free_symbols)
         for name in names:
+            if name in recording.words:
+                row, word = recording.words[name]
+                problem = f"{name} holds no number in any row, the first is {word!r}"
+                expected = f"numbers for the formula at {self.text.place}{_CLOCK if ':' in word else ''}"
+                raise InputError(recording.where(row, name), problem, expected)
             if name not in recording.columns:
                 problem = f"{recording.file} has no column {name}"
                 raise InputError(self.text.place, problem, f"one of {', '.join(recording.columns)}")
@@ -80,4 +88,4 @@ def renamed(recording: Recording, given: Mapping[str, Formula]) -> Recording:
         return recording.where(row, column)
 
     columns = {**recording.columns, **added}
-    return Recording(recording.file, columns, recording.sha256, where, recording.notes)
+    return replace(recording, columns=columns, where=where)

@@ -8,15 +8,24 @@ from generator.robot.fields import nearest
 from generator.symbolic.model import Model
 from generator.symbolic.parameter_sets import resolved
 
-#: What a robot without any set needs.
+#: What a robot without any set needs, and where it is to say how a robot moves what will do.
 _NONE = "one in section parameters of the robot file, which has none"
+_ROUGH = "; estimates of masses and friction will do"
 
 
-def named_set(robot: Robot, name: str, place: Place) -> ParameterSet:
-    """The robot's set ``name``; raises InputError, at ``place``, where it has none of that name."""
+def named_set(robot: Robot, name: str, place: Place, default: str = "") -> ParameterSet:
+    """The robot's set ``name``; raises InputError, at ``place``, where it has none of that name.
+
+    ``default`` is the set that the option at ``place`` stands for where it is not given, if it does.
+    """
     sets = robot.parameter_sets
     if name not in sets:
-        raise InputError(place, f"{robot.name} has no parameter set {name!r}", nearest(name, sets) if sets else _NONE)
+        problem = f"{robot.name} has no parameter set {name!r}"
+        expected = nearest(name, sets) if sets else _NONE
+        if name == default:
+            problem += ", the default"
+            expected += "" if sets else _ROUGH
+        raise InputError(place, problem, expected)
     return sets[name]
 
 

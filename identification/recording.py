@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TypeAlias
 
@@ -16,14 +16,17 @@ from identification.arrays import Array
 #: The place of a value by its row, from 0, and its column; of the column's name without a row.
 Where: TypeAlias = Callable[[int | None, str], Place]
 
+#: The way out of a fault in some rows alone.
+A_PART = "FILE@FROM:TO takes a part"
+
 _CHUNK = 1 << 20
 _WORD = re.compile(r"\w+")
 
 
-def left_out(file: str, words: Sequence[str]) -> tuple[str, ...]:
+def left_out(file: str, words: Collection[str]) -> tuple[str, ...]:
     """What is to be told of columns of a file that hold no number; nothing without any."""
     are = "is" if len(words) == 1 else "are"
-    return (f"{file}: {listed(words)} held no number and {are} left out",) if words else ()
+    return (f"{file}: {listed([*words])} held no number and {are} left out",) if words else ()
 
 
 def by_count(file: str, names: Sequence[str]) -> Where:
@@ -39,7 +42,8 @@ def by_count(file: str, names: Sequence[str]) -> Where:
 class Recording:
     """Columns by name (N each), as written.
 
-    ``where`` tells the place of a value; ``sha256`` is of the file; ``notes`` tell what was repaired in reading.
+    ``where`` tells the place of a value; ``sha256`` is of the file; ``notes`` tell what was repaired in reading. Of
+    columns that were left out since they hold no number ``words`` tell the first row that says something, and what.
     """
 
     file: str
@@ -47,6 +51,7 @@ class Recording:
     sha256: str
     where: Where
     notes: tuple[str, ...] = ()
+    words: Mapping[str, tuple[int, str]] = field(default_factory=dict)
 
     @property
     def rows(self) -> int:

@@ -11,7 +11,7 @@ from generator.errors import InputError
 from generator.words import listed
 from identification.arrays import Array
 from identification.neighbours import in_a_row
-from identification.recording import Where
+from identification.recording import A_PART, Where
 from identification.signals import Measured
 
 #: Rows in a row in which nothing changes that a log repeated, by how much more than a usual stretch without a change,
@@ -39,7 +39,7 @@ def live(at: Measured, effort: Measured, where: Where) -> None:
         if np.any((moving > 0) & (jump > _CAUGHT_UP * (rows + 1) * moving)):
             name = at.names[int(np.argmax(jump))]
             problem = f"nothing changes from here for {rows} rows, and {name} then jumps"
-            raise InputError(where(one.start + 1, name), problem, "each row of its own time; FILE@FROM:TO takes a part")
+            raise InputError(where(one.start + 1, name), problem, f"each row of its own time; {A_PART}")
 
 
 def slower(effort: Measured, where: Where) -> Iterator[str]:

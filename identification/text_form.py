@@ -51,14 +51,19 @@ class Form:
                     raise ValueError("two decimal marks")
                 yield self._ended(line).replace(",", ".")
 
-    def extent(self) -> tuple[int, bool]:
-        """The number of lines under the header without empty ones at the end, and whether the last one is ended."""
+    def extent(self) -> tuple[int, str]:
+        """The number of lines under the header without empty ones at the end, and in words what the last one is without
+        if it is cut off: its end, or fields after others that are complete; empty where it is whole.
+        """
         number, last, empty = 0, "\n", f" \t\r\n{self.separator}"
         with self.path.open(encoding=self.encoding, errors="replace") as stream:
             for k, line in enumerate(islice(stream, self.header + 1, None), 1):
                 if line.strip(empty):
                     number, last = k, line
-        return number, last.endswith("\n")
+        if not last.endswith("\n"):
+            return number, "no end"
+        count, names = len(split(self._ended(last), self.separator)), len(self.names)
+        return number, f"{count} of {names} fields" if number > 1 and count < names else ""
 
     def is_number(self, field: str) -> bool:
         """Whether a field is one as this text writes them."""

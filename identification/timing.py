@@ -11,7 +11,7 @@ from generator.errors import InputError
 from generator.words import plural
 from identification.arrays import Array
 from identification.neighbours import off_cubics
-from identification.recording import Recording
+from identification.recording import A_PART, Recording
 
 #: Unevenness, in periods, that is taken as even; and that from which a sample is missing.
 _EVEN, _GAP = 0.02, 0.5
@@ -83,7 +83,7 @@ def clock(recording: Recording) -> Clock:
     if bad.size:
         k = int(bad[0])
         problem = f"time goes from {t[k]:.9g} s to {t[k + 1]:.9g} s"
-        raise InputError(recording.where(k + 1, "t"), problem, "times that increase")
+        raise InputError(recording.where(k + 1, "t"), problem, f"times that increase; {A_PART}")
     usual = float(np.median(steps))
     early = float(np.median(steps[: max(2, len(steps) // 50)]))
     reference = early if abs(early / usual - 1) > _GAP else usual
@@ -98,7 +98,7 @@ def clock(recording: Recording) -> Clock:
             return Clock(start, period, t, np.arange(len(t)))
         k = int(gaps[0])
         problem = f"time steps by {steps[k]:.6g} s, at {t[k + 1]:.9g} s, where it stepped by {reference:.6g} s"
-        raise InputError(recording.where(k + 1, "t"), problem, "one rate without gaps; FILE@FROM:TO takes a part")
+        raise InputError(recording.where(k + 1, "t"), problem, f"one rate without gaps; {A_PART}")
     return Clock(float(t[0]), float(t[-1] - t[0]) / int(sample[-1]), t, sample)
 
 

@@ -133,7 +133,8 @@ class Reference:
 class Trajectory:
     """A kind of trajectory by its ``name``; ``flexible`` ones need elastic drive trains.
 
-    ``plan`` makes the reference; it raises Unplanned where the robot or a setting does not allow it.
+    ``plan`` makes the reference; it raises Unplanned where the robot or a setting does not allow it. ``length`` [s] is
+    what values of all its settings take where that is not for the run to say; it raises the same.
     """
 
     name: str
@@ -141,6 +142,7 @@ class Trajectory:
     settings: Mapping[str, Setting]
     plan: Callable[[Task], Reference]
     flexible: bool = False
+    length: Callable[[Mapping[str, Value]], float] | None = None
 
 
 def ends_of(robot: Robot, coordinate: int) -> tuple[float, float]:

@@ -258,6 +258,23 @@ def test_a_wrong_option_is_one_line(
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.parametrize(
+    ("sets", "expected"),
+    [
+        ({}, "one in section parameters of the robot file, which has none; estimates of masses and friction will do"),
+        ({"rough": TRUTH}, "one of rough"),
+    ],
+)
+def test_a_robot_without_the_default_set_is_told_before_the_search(
+    sets: dict[str, dict[str, float]], expected: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "bare.yaml").write_text(LIMITED + (parameters_text(sets) if sets else ""))
+    told = f"error: --parameters:1:1: two_links has no parameter set 'twin', the default, expected {expected}"
+    for name in ("excite", "simulate"):
+        done = command(name, tmp_path / "bare.yaml", "--out", tmp_path / "out.csv", capsys=capsys)
+        assert (done.status, done.err.splitlines()) == (2, [told])
+
+
 def test_limits_that_no_motion_can_keep(file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for old, new, problem in (
         (
@@ -309,6 +326,21 @@ def test_of_a_file_that_cannot_be_played_the_command_says_so(
     done = command("simulate", file, "--out", tmp_path / "out.csv", *words, capsys=capsys)
     assert done.status == 2
     assert PLAYED[ONE_OF_TWO] in done.err.splitlines()[-1]
+
+
+@pytest.mark.parametrize(("asked", "lasts"), [((), 25.0), (("--duration", "5"), 5.0)])
+def test_a_file_is_played_to_its_end(
+    asked: tuple[str, ...], lasts: float, file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A run without a length of its own lasts 20 s: one that has one is as long, but for the last of its samples."""
+    t = 3.0 + np.arange(251) / 10
+    q = 0.1 * (1 - np.cos(2 * np.pi * (t - t[0]) / 5))
+    np.savetxt(tmp_path / "long.csv", np.stack([t, q, q], axis=1), delimiter=",", header="t,qr1,qr2", comments="")
+    words = ("--trajectory", "played", "--set", f"file={tmp_path / 'long.csv'}", *asked)
+    assert command("simulate", file, "--out", tmp_path / "a.csv", *words, capsys=capsys).status == 0
+    made = csv.read(tmp_path / "a.csv").columns
+    assert made["t"][-1] == pytest.approx(lasts - 1e-3)
+    assert f"duration: {lasts:g}" in (tmp_path / "a.yaml").read_text()
 
 
 def test_positions_are_written_as_the_controller_counts_them(

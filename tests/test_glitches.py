@@ -135,6 +135,33 @@ def test_a_position_far_from_all_others_is_refused_at_its_row(wrong: list[int], 
         load(str(Recorded({"t": t, **columns}).save(tmp_path / "far.csv")), robot)
 
 
+@pytest.mark.parametrize(
+    ("limits", "hint"), [("limits: [-160 deg, 160 deg]", "another robot"), ("label: free", "turn on")]
+)
+def test_samples_beyond_the_limits_are_counted(limits: str, hint: str, tmp_path: Path) -> None:
+    """One that is wrong is not taken for degrees, though all were inside if they were; without its row the run is
+    read.
+    """
+    path = tmp_path / "two_links.yaml"
+    path.write_text(TWO_LINKS.replace("limits: [-160 deg, 160 deg]", limits))
+    robot = read(path)
+    t, motion = fourier(robot, 10.0, 500.0)
+    columns = columns_of(motion.q, motion.qd)
+    columns["q1"][700] = 13.5
+    spoilt = Recorded({"t": t, **columns})
+    counted = (
+        rf":702:\d+: q1 gives joint 1 13.5 rad, .*, in 1 of {len(t)} samples, of which this is the first, expected"
+    )
+    with pytest.raises(InputError, match=rf"{counted}.*; a wrong row may be deleted"):
+        load(str(spoilt.save(tmp_path / "far.csv")), robot)
+    often = np.where(np.arange(len(t)) % 10, columns["q1"], 13.5)
+    with pytest.raises(InputError, match=rf"in 500 of {len(t)} samples, .*{hint}\?$"):
+        load(str(spoilt.with_columns(q1=often).save(tmp_path / "often.csv")), robot)
+    rest = {name: np.delete(x, 700) for name, x in spoilt.columns.items()}
+    (note,) = load(str(Recorded(rest).save(tmp_path / "rest.csv")), robot).notes
+    assert "1 of 5000 samples are missing" in note
+
+
 def test_the_first_of_several_jumps_is_told_though_others_are_larger(tmp_path: Path) -> None:
     robot = two_links(tmp_path)
     t, motion = fourier(robot, 10.0, 500.0)

@@ -198,7 +198,7 @@ BAD: dict[str, tuple[Callable[[Recorded], Recorded], str]] = {
     ),
     "time goes back": (
         lambda r: put(r, "t", 300, 0.1),
-        r":302:1: time goes from 1.495 s to 0.1 s, expected times that inc",
+        r":302:1: time goes from 1.495 s to 0.1 s, expected times that increase; FILE@FROM:TO takes a part",
     ),
     "two rates": (
         two_rates,

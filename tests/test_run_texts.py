@@ -26,7 +26,7 @@ TEXTS: dict[str, tuple[Callable[[str], str], str]] = {
     "word": (lambda text: text.replace("\n0.015,", "\n0.015,fast,", 1), r":5:7: q1 is 'fast', expected a number"),
     "empty field": (lambda text: text.replace("\n0.015,", "\n0.015,,", 1), r":5:7: q1 is missing, expected a number"),
     "short row": (
-        lambda text: "\n".join([*text.splitlines()[:40], text.splitlines()[40].rpartition(",")[0], ""]),
+        lambda text: "\n".join([*text.splitlines()[:40], text.splitlines()[40].rpartition(",")[0], "0.2,0,0,0,0", ""]),
         ":41:1: 4 fields in a row, 5 names in the header, expected a complete row; is the file cut off",
     ),
     "decimal commas between commas": (
@@ -34,6 +34,10 @@ TEXTS: dict[str, tuple[Callable[[str], str], str]] = {
         r":2:1: \d+ fields in a row, 5 names in the header, expected as many fields as names; where numbers have dec",
     ),
     "a long name": (lambda text: text.replace("q2", 100 * "\0", 1), r":1:6: column name '(\\x00){60}\.\.\.', expected"),
+    "a short row alone": (
+        lambda text: "\n".join([*text.splitlines()[:1], "0,0,0,0", ""]),
+        ":2:1: 4 fields in a row, 5 names in the header, expected a complete row; is the file cut off",
+    ),
     "empty line": (lambda text: text.replace("\n0.1,", "\n\n0.1,", 1), ":22:1: the line is empty"),
     "decimal comma between commas": (lambda text: text.replace("\n0.1,", '\n"0,1",', 1), ":22:1: t is '0,1', expected"),
     "both marks": (
@@ -120,12 +124,19 @@ def test_bad_texts_are_refused_with_line_and_column(name: str, good: Recorded, r
         load(str(path), robot)
 
 
-def test_a_line_without_end_is_left_out_and_told(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+@pytest.mark.parametrize("form", ["as written", "decimal commas", "separators at the end"])
+@pytest.mark.parametrize(("lacks", "end"), [("no end", ""), ("3 of 5 fields", "\n")])
+def test_a_last_line_that_is_cut_is_left_out_and_told(
+    form: str, lacks: str, end: str, good: Recorded, robot: Robot, tmp_path: Path
+) -> None:
     path = tmp_path / "cut.csv"
-    path.write_text(text_of(good, tmp_path)[:-4])
-    run = load(str(path), robot)
-    assert run.samples == 1599
-    assert run.notes == (f"{path}:1601: the last line has no end and is left out, the file may be cut off there",)
+    text = FORMS.get(form, str)(text_of(good, tmp_path))
+    last = text.splitlines()[-1]
+    path.write_text(text.removesuffix(last + "\n") + last[: len(last) // 3] + end)
+    for name, rows in ((str(path), 1599), (f"{path}@0:7", 1401)):
+        run = load(name, robot)
+        assert run.samples == rows
+        assert run.notes == (f"{path}:1601: the last line has {lacks} and is left out, the file may be cut off there",)
 
 
 def test_a_byte_that_is_not_utf_8_has_its_place(good: Recorded, robot: Robot, tmp_path: Path) -> None:

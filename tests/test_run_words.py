@@ -29,6 +29,45 @@ def test_a_column_without_a_number_is_left_out_and_told(good: Recorded, robot: R
     assert note.endswith("b.csv: mode held no number and is left out")
 
 
+@pytest.mark.parametrize(
+    ("clock", "told"),
+    [
+        (
+            ["", *1599 * ["12:03:04,123"]],
+            "a.csv:3:{at}: clock holds no number in any row, the first is '12:03:04,123', expected numbers for the "
+            "formula at {side}:1:14; a time of day as seconds, 12:00:01.5 as 43201.5",
+        ),
+        (
+            1600 * ["AUT"],
+            "a.csv:2:{at}: clock holds no number in any row, the first is 'AUT', expected numbers for the",
+        ),
+    ],
+)
+def test_a_formula_over_words_is_told_so(
+    clock: list[str], told: str, good: Recorded, robot: Robot, tmp_path: Path
+) -> None:
+    header, *rows = good.save(tmp_path / "a.csv").read_text().replace(",", ";").splitlines()
+    lines = [
+        header.replace("t;", "s;", 1) + ";clock",
+        *(f"{row};{word}" for row, word in zip(rows, clock, strict=True)),
+    ]
+    (tmp_path / "a.csv").write_text("\n".join(lines) + "\n")
+    side = tmp_path / "a.yaml"
+    side.write_text("columns: {t: clock / 1000}\n")
+    at = lines[1 if clock[0] else 2].rindex(";") + 2
+    with pytest.raises(InputError) as caught:
+        load(str(tmp_path / "a.csv"), robot)
+    assert told.format(at=at, side=side) in str(caught.value)
+
+
+def test_a_formula_over_words_of_a_parquet_file_is_told_so(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    table = pyarrow.table({**good.without("t").columns, "clock": ["12:03"] * 1600})
+    parquet.write_table(table, tmp_path / "a.parquet")
+    (tmp_path / "a.yaml").write_text("columns: {t: clock / 1000}\n")
+    with pytest.raises(InputError, match=r"a.parquet:1:5: clock holds no number in any row, the first is '12:03', exp"):
+        load(str(tmp_path / "a.parquet"), robot)
+
+
 @pytest.mark.parametrize(("spelt", "near"), [(str.upper, "Q1"), (lambda name: f"{name[:-1]}_{name[-1]}", "q_1")])
 def test_columns_of_another_spelling_are_hinted_at(
     spelt: Callable[[str], str], near: str, good: Recorded, robot: Robot, tmp_path: Path

@@ -59,7 +59,9 @@ def _motion(group: argparse._ActionsContainer) -> None:
     group.add_argument(
         "--pose", metavar="Q", type=float, nargs="+", help="start or centre [rad, m] (default: middle of the limits)"
     )
-    group.add_argument("--duration", metavar="S", type=float, default=20.0, help="time of the run (default: 20)")
+    group.add_argument(
+        "--duration", metavar="S", type=float, help="time of the run (default: 20; that of a played file)"
+    )
     group.add_argument("--seed", metavar="N", type=int, default=0, help="seed of trajectory and noise (default: 0)")
     group.add_argument("--noise-seed", metavar="N", type=int, help="seed of the noise (default: that of --seed)")
 
@@ -152,12 +154,12 @@ def run(arguments: argparse.Namespace) -> None:
     from generator.robot.readers import read
 
     with needing(command_line("counterpoise simulate")):
-        from identification.simulation.checks import check
+        from identification.simulation.checks import check, timed
         from identification.simulation.machine import compiled
         from identification.simulation.run_file import files_of, save
         from identification.simulation.simulate import simulate
 
-    settings = _settings(arguments)
+    settings = timed(_settings(arguments))
     path = find_robot(arguments.robot)
     robot = read(path)
     check(settings, robot)
@@ -171,7 +173,7 @@ def run(arguments: argparse.Namespace) -> None:
     with contextlib.ExitStack() as stack:
         with stage(f"compiling the simulation of {robot.name}"):
             machine = stack.enter_context(compiled(robot))
-        with bar(f"simulating {settings.duration:g} s") as progress:
+        with bar(f"simulating {settings.lasts:g} s") as progress:
             found = simulate(machine, settings, progress)
     files = save(found, robot.name, robot.digest, out)
     rows = len(found.columns["t"])

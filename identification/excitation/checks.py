@@ -8,7 +8,8 @@ from generator.errors import InputError
 from generator.robot.description import Robot
 from identification.excitation.criterion import CONDITION, DETERMINANT
 from identification.excitation.design import DRAWN
-from identification.excitation.request import Request
+from identification.excitation.request import SET, Request
+from identification.named_set import named_set
 
 #: Rows that a motion may have.
 _MOST = 1e7
@@ -17,7 +18,10 @@ _LEAST, _LARGEST = 1e-12, 1e12
 
 
 def check(request: Request, robot: Robot) -> None:
-    """Raises InputError for what no motion can have, and for noise that is none or not that of the robot's motors."""
+    """Raises InputError for what no motion can have, for noise that is none or not that of the robot's motors, and for
+    a parameter set that the robot has not.
+    """
+    named_set(robot, request.parameters, command_line("--parameters"), SET)
     _check_motion(request)
     _check_noise(request, len(robot.moving))
     fewest = request.filters_of(robot).at(request.rate).fewest

@@ -11,6 +11,9 @@ from identification.excitation.criterion import DETERMINANT
 from identification.excitation.noise import PART
 from identification.recipes import Recipe
 
+#: The set of a robot that none is named for.
+SET = "twin"
+
 
 @dataclass(frozen=True)
 class Request:
@@ -26,7 +29,7 @@ class Request:
     ``seed``.
     """
 
-    parameters: str = "twin"
+    parameters: str = SET
     frequency: float = 0.1
     harmonics: int = 5
     periods: int = 2

@@ -7,7 +7,7 @@ decimal mark of all numbers. Lines before the header that begin with # or % say 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
@@ -60,15 +60,16 @@ def read(path: Path) -> Recording:
     file = str(path)
     layout = _layout(file, path)
     form = layout.form
-    rows, complete = form.extent()
+    rows, cut = form.extent()
     notes: tuple[str, ...] = ()
-    if not complete:
+    if cut:
         line = form.header + 1 + rows
-        notes = (f"{file}:{line}: the last line has no end and is left out, the file may be cut off there",)
+        notes = (f"{file}:{line}: the last line has {cut} and is left out, the file may be cut off there",)
         rows -= 1
     if not rows:
         return Recording(file, {name: np.empty(0) for name in form.names}, digest(path), layout.place, notes)
     names: Sequence[str] = form.names
+    words: Mapping[str, tuple[int, str]] = {}
     try:
         values = _numbers(form, rows)
     except ValueError as error:
@@ -86,7 +87,7 @@ def read(path: Path) -> Recording:
     if values.shape[1] != len(names):
         _find_fault(layout, rows, f"{values.shape[1]} fields a row, {len(names)} names")
     columns: dict[str, Array] = dict(zip(names, np.ascontiguousarray(values.T), strict=True))
-    return Recording(file, columns, digest(path), layout.place, notes)
+    return Recording(file, columns, digest(path), layout.place, notes, words)
 
 
 def _numbers(form: Form, rows: int, columns: Sequence[int] | None = None) -> Array:
@@ -102,17 +103,23 @@ def _numbers(form: Form, rows: int, columns: Sequence[int] | None = None) -> Arr
     )
 
 
-def _of_words(form: Form, rows: int) -> list[str]:
-    """Columns of which no row is a number; none where a row has another number of fields."""
-    words = list(range(len(form.names)))
-    for text in islice(form.lines(), rows):
+def _of_words(form: Form, rows: int) -> dict[str, tuple[int, str]]:
+    """Columns of which no row is a number, with row and text of the first field that is not empty; none where a row has
+    another number of fields.
+    """
+    words = dict.fromkeys(range(len(form.names)), (0, ""))
+    for row, text in enumerate(islice(form.lines(), rows)):
         fields = split(text, form.separator)
         if len(fields) != len(form.names):
-            return []
-        words = [k for k in words if not form.is_number(fields[k])]
+            return {}
+        words = {
+            k: first if first[1] else (row, fields[k].strip())
+            for k, first in words.items()
+            if not form.is_number(fields[k])
+        }
         if not words:
             break
-    return [form.names[k] for k in words]
+    return {form.names[k]: first for k, first in words.items()}
 
 
 def _undecodable(file: str, path: Path) -> InputError:
@@ -146,7 +153,7 @@ def _layout(file: str, path: Path) -> _Layout:
     return layout
 
 
-def _find_fault(layout: _Layout, rows: int, problem: str, words: Sequence[str] = ()) -> NoReturn:
+def _find_fault(layout: _Layout, rows: int, problem: str, words: Collection[str] = ()) -> NoReturn:
     """Raises InputError at the first field that is not a number, but for columns of ``words``."""
     form, mark = layout.form, ""
     for row, text in enumerate(islice(form.lines(), rows)):

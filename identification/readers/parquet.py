@@ -40,5 +40,5 @@ def read(path: Path) -> Recording:
         elif types.is_duration(column.type):
             spans = column.to_numpy()
             columns[name] = np.where(np.isnat(spans), np.nan, spans / np.timedelta64(1, "s"))
-    notes = left_out(file, [name for name in names if name not in columns])
-    return Recording(file, columns, digest(path), by_count(file, names), notes)
+    words = {name: (0, str(table.column(name)[0])) for name in names if name not in columns and table.num_rows}
+    return Recording(file, columns, digest(path), by_count(file, names), left_out(file, words), words)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -17,7 +18,7 @@ from identification.named_set import named_set
 from identification.simulation.payload import whole
 from identification.simulation.settings import FURTHER, Settings
 from identification.trajectories import trajectories
-from identification.trajectory import Trajectory, Value, ends_of
+from identification.trajectory import Trajectory, Unplanned, Value, ends_of
 
 #: Samples of the controller that a run may have.
 _MOST = 10**8
@@ -36,6 +37,7 @@ def each(values: Sequence[float], n: int, option: str) -> Array:
 
 def check(settings: Settings, robot: Robot) -> None:
     """Raises InputError for settings that are wrong, or wrong for the robot; the place is the option of the command."""
+    settings = timed(settings)
     _check_numbers(settings)
     _check_rates(settings)
     _check_robot(settings, robot)
@@ -60,9 +62,23 @@ def check(settings: Settings, robot: Robot) -> None:
     pose(settings, robot)
 
 
+def timed(settings: Settings) -> Settings:
+    """Settings with a duration: a trajectory's own length where none is given.
+
+    Raises InputError where a trajectory that has one cannot tell it.
+    """
+    length = trajectory_of(settings.trajectory).length
+    if settings.duration is not None or length is None:
+        return replace(settings, duration=settings.lasts)
+    try:
+        return replace(settings, duration=length(chosen(settings)))
+    except Unplanned as error:
+        raise InputError(command_line("--trajectory"), error.problem, error.expected) from None
+
+
 def _check_numbers(settings: Settings) -> None:
     for option, value, bound, most in (
-        ("--duration", settings.duration, 0, np.inf),
+        ("--duration", settings.lasts, 0, np.inf),
         ("--rate", settings.rate, 0, np.inf),
         ("--bandwidth", settings.bandwidth, 0, _LARGEST),
         ("--temperature", settings.temperature, 0, _LARGEST),
@@ -81,19 +97,19 @@ def _check_numbers(settings: Settings) -> None:
         for value in values:
             not_negative(value, option, _LARGEST)
     for option, delay in (("--delay", settings.delay), ("--link-delay", settings.link_delay)):
-        if not_negative(delay, option) > settings.duration:
-            raise InputError(command_line(option), f"{delay:g} s", f"no more than the run, {settings.duration:g} s")
+        if not_negative(delay, option) > settings.lasts:
+            raise InputError(command_line(option), f"{delay:g} s", f"no more than the run, {settings.lasts:g} s")
     for option, seed in (("--seed", settings.seed), ("--noise-seed", settings.noise_seed or 0)):
         whole_number(seed, option, 0)
 
 
 def _check_rates(settings: Settings) -> None:
-    asked = settings.duration * settings.rate
+    asked = settings.lasts * settings.rate
     if asked > _MOST:
         raise InputError(command_line("--duration"), f"{asked:g} samples", f"at most {_MOST}")
     if settings.samples < 2:
         raise InputError(
-            command_line("--duration"), f"{settings.duration:g} s, {plural(settings.samples, 'sample')}", "a longer run"
+            command_line("--duration"), f"{settings.lasts:g} s, {plural(settings.samples, 'sample')}", "a longer run"
         )
     if settings.log_rate is not None:
         ratio = settings.rate / settings.log_rate if settings.log_rate > 0 else 0.0
@@ -106,7 +122,7 @@ def _check_robot(settings: Settings, robot: Robot) -> None:
     if settings.flexible and not robot.flexible:
         problem = f"{robot.name} has no elastic drive trains"
         raise InputError(command_line("--flexible"), problem, "a robot file with the key flexible")
-    named_set(robot, settings.set_name, command_line("--parameters"))
+    named_set(robot, settings.set_name, command_line("--parameters"), replace(settings, parameters=None).set_name)
     if trajectory_of(settings.trajectory).flexible and not settings.flexible:
         problem = f"{settings.trajectory} needs elastic drive trains"
         raise InputError(command_line("--trajectory"), problem, "--flexible")

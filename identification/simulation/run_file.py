@@ -54,7 +54,7 @@ def _sidecar(run: Simulated, robot: str, digest: str) -> str:
         "trajectory": settings.trajectory,
         **{f"trajectory_{name}": value for name, value in run.trajectory.items()},
         "pose": run.pose.tolist(),
-        "duration": settings.duration,
+        "duration": settings.lasts,
         "seed": settings.seed,
         "noise_seed": settings.seed if settings.noise_seed is None else settings.noise_seed,
         "rate": settings.rate,

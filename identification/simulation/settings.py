@@ -13,6 +13,8 @@ from identification.trajectory import Value
 
 #: Columns that are logged if asked for: the reference, encoders of the links, temperatures of the drives.
 FURTHER = ("qr", "qs", "temp")
+#: Time [s] of a run whose trajectory has no length of its own.
+_LASTS = 20.0
 
 
 @dataclass(frozen=True)
@@ -20,8 +22,9 @@ class Settings:
     """Settings of one run; sequences have one value, or one a motor in order.
 
     ``parameters`` names a set of the robot file, else ``twin`` or ``twin_flexible``; ``pose`` [rad, m] is where the
-    trajectory starts or is centred, else the middle of the limits; ``duration`` [s]; ``rate`` [Hz] of the controller,
-    ``log_rate`` of the log (the same if None). ``further`` columns are of FURTHER.
+    trajectory starts or is centred, else the middle of the limits; ``duration`` [s] is else that of the trajectory, or
+    20 s where it has none of its own; ``rate`` [Hz] is the controller's, ``log_rate`` the log's (the same if None).
+    ``further`` columns are of FURTHER.
 
     ``bandwidth`` [Hz] is that of the speed loops, ``largest`` [A, else N m, N of the rotor] cuts the current.
     ``resolution`` [rad, m] is a step of the motors' encoders (the joints' where there are no drives), ``noise`` the
@@ -38,7 +41,7 @@ class Settings:
     flexible: bool = False
     parameters: str | None = None
     pose: Sequence[float] | None = None
-    duration: float = 20.0
+    duration: float | None = None
     seed: int = 0
     noise_seed: int | None = None
     rate: float = 1000.0
@@ -64,9 +67,14 @@ class Settings:
         return 1 / self.rate
 
     @property
+    def lasts(self) -> float:
+        """Time of the run [s]; a trajectory's own length is no part of the settings, see ``checks.timed``."""
+        return _LASTS if self.duration is None else self.duration
+
+    @property
     def samples(self) -> int:
         """Samples of the controller in the run."""
-        return round(self.duration * self.rate)
+        return round(self.lasts * self.rate)
 
     @property
     def every(self) -> int:

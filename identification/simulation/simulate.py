@@ -15,7 +15,7 @@ from identification import corrections
 from identification.arrays import Array
 from identification.drive_train import coupling
 from identification.signals import EFFORTS, WRENCH
-from identification.simulation.checks import check, chosen, each, pose, trajectory_of
+from identification.simulation.checks import check, chosen, each, pose, timed, trajectory_of
 from identification.simulation.closed_loop import Log, Loop, Progress, torque_constants
 from identification.simulation.machine import Machine
 from identification.simulation.payload import carried, whole
@@ -45,6 +45,7 @@ def simulate(machine: Machine, settings: Settings, progress: Progress = lambda p
 
     Raises InputError for settings that the robot does not allow.
     """
+    settings = timed(settings)
     check(settings, machine.robot)
     kind, values, start = trajectory_of(settings.trajectory), chosen(settings), pose(settings, machine.robot)
     model = machine.module.Robot(settings.set_name)

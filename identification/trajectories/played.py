@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +15,7 @@ from identification.corrections import true_positions
 from identification.recording import Recording
 from identification.signals import measured
 from identification.timing import clock
-from identification.trajectory import Reference, Setting, Task, Trajectory, Unplanned, ends_of
+from identification.trajectory import Reference, Setting, Task, Trajectory, Unplanned, Value, ends_of
 
 #: Columns that are played, the first that the file has.
 _STEMS = ("qr", "q")
@@ -31,15 +32,12 @@ def _plan(task: Task) -> Reference:
 
     Raises InputError, with file and row, for a file without positions or times, and for positions beyond the limits.
     """
-    file = str(task.settings["file"])
-    if not file:
-        raise Unplanned("no file is played", "--set file=RUN")
-    recording = readers.read(Path(file))
+    recording = _read(task.settings)
     found = measured(recording, _STEMS, task.robot, "positions")
     checks.finite([*zip(found.names, found.values, strict=True)], recording.where)
     ticks = clock(recording)
     if found.values.shape[1] <= _CUBIC:
-        raise Unplanned(f"{file} has {found.values.shape[1]} rows", f"{_CUBIC + 1} at least")
+        raise Unplanned(f"{recording.file} has {found.values.shape[1]} rows", f"{_CUBIC + 1} at least")
     true = true_positions(found.values, task.robot)
     _inside(task, recording, found.names, true)
     t = recording.columns["t"] - ticks.start
@@ -48,8 +46,21 @@ def _plan(task: Task) -> Reference:
     at = np.minimum(task.times, t[-1])
     q, qd = motion(at), np.where(within, motion.derivative()(at), 0.0)
     if (np.abs(qd[:, 0]) > max(_REST * np.abs(qd).max(), _STANDS)).any():
-        raise Unplanned(f"{file} does not begin at rest", "speeds of zero at the start")
+        raise Unplanned(f"{recording.file} does not begin at rest", "speeds of zero at the start")
     return Reference(q.T, qd.T)
+
+
+def _length(settings: Mapping[str, Value]) -> float:
+    """Time [s] from the file's first row to its last."""
+    t = clock(_read(settings)).t
+    return float(t[-1] - t[0])
+
+
+def _read(settings: Mapping[str, Value]) -> Recording:
+    file = str(settings["file"])
+    if not file:
+        raise Unplanned("no file is played", "--set file=RUN")
+    return readers.read(Path(file))
 
 
 def _inside(task: Task, recording: Recording, names: tuple[str, ...], q: Array) -> None:
@@ -68,4 +79,5 @@ TRAJECTORY = Trajectory(
     title="the reference qr1, qr2, .. of a run file, else its positions",
     settings={"file": Setting("", "a run file", file=True)},
     plan=_plan,
+    length=_length,
 )

@@ -116,7 +116,10 @@ def _element(key: Text, moving: Sequence[int]) -> tuple[int, int]:
         if number not in moving:
             raise InputError(key.place, f"{key.content}: joint {number} does not move or exist", "moving joints")
     if column >= row:
-        raise InputError(key.place, f"{key.content} is not below the diagonal", "a row greater than the column")
+        order = "joints in an order in which a motor's own joint is the last it turns with"
+        raise InputError(
+            key.place, f"{key.content} is not below the diagonal", f"a row greater than the column: {order}"
+        )
     return moving.index(row), moving.index(column)
 
 
