@@ -159,17 +159,18 @@ def run(arguments: argparse.Namespace) -> None:
         from identification.simulation.run_file import files_of, save
         from identification.simulation.simulate import simulate
 
-    settings = timed(_settings(arguments))
+    settings = _settings(arguments)
     path = find_robot(arguments.robot)
     robot = read(path)
-    check(settings, robot)
     out = arguments.out or Path("simulated") / robot.name / f"{settings.trajectory}_{settings.seed}.csv"
     if out.suffix != ".csv":
         raise InputError(command_line("--out"), f"a file that ends in {out.suffix!r}", "one that ends in .csv")
-    writable(out.parent)
     played = (Path(value) for value in settings.trajectory_settings.values() if isinstance(value, str))
     for source in (path, *(file for file in played if os.path.isfile(file))):
         spare(source, files_of(out))
+    settings = timed(settings)
+    check(settings, robot)
+    writable(out.parent)
     with contextlib.ExitStack() as stack:
         with stage(f"compiling the simulation of {robot.name}"):
             machine = stack.enter_context(compiled(robot))
