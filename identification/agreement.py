@@ -18,22 +18,25 @@ from identification.arrays import Array
 from identification.factors import Factor, added
 from identification.least_squares import Problem, Solution
 from identification.observed import Observed
-from identification.rank import nonzero
+from identification.rank import nonzero, silent
 from identification.suspicion import above_zero, another_sign, directed
 
 #: Part of what a run moves in directions that the others' rows do not show from which they do not foresee its torques.
 _UNSEEN = 1e-3
 #: Part of a torque that is left of it with the other sign where that is its sign, and that may be uncertain for that.
 _NEGATED, _SURE = 0.5, 0.25
-#: A run is odd whose torques the others miss by so many times what fits leave, and by that part of their spread. What
+#: A run is odd whose torques the others miss by so many times what fits leave, and by these parts of their spread and
+#: of all of them: a gain that drifts by a hundredth is much of the spread where a joint hardly moves. What
 #: a model lacks is another for every motion: friction with a dip at low speeds, fitted to motions of other sizes, comes
 #: to 1.3 times, the drives of an industrial robot to less; a fifth more friction to none. Another payload or zero comes
 #: to ten times and more.
-_ODD, _PART = 3.0, 0.05
+_ODD, _PART, _OF_ALL = 3.0, 0.05, 0.02
+#: Rows beyond those that own friction takes from which something can be said of a joint.
+_ROWS = 20
 #: Residuals are coloured: what is foreseen is about so many times less certain than by residuals that are not.
 _COLOURED = 3.0
 #: What an odd run may have.
-_OTHER = "another payload, another zero of a position (a home position that was lost), or other gains or signs"
+_OTHER = "another payload, another zero of a position (a lost home position) or of a torque, or other gains or signs"
 
 
 @dataclass(frozen=True)
@@ -55,12 +58,12 @@ class Foreseen:
     @property
     def opposite(self) -> bool:
         """Whether its torque is the other way than that which is foreseen."""
-        return self.negated < _NEGATED * self.torque and self.uncertain < _SURE * self.torque
+        return self.negated < _NEGATED * self.torque and _COLOURED * self.uncertain < _SURE * self.torque
 
     @property
     def excess(self) -> float:
         """What is left in parts of what may be; zero where it is little of the torque."""
-        if self.left < _PART * self.spread:
+        if self.left < max(_PART * self.spread, _OF_ALL * self.torque):
             return 0.0
         return self.left / max(float(np.hypot(self.noise, _COLOURED * self.uncertain)), np.finfo(float).tiny)
 
@@ -74,12 +77,13 @@ def foreseen(run: Observed, others: Problem, model: Model) -> list[Foreseen]:
     """What a fit of ``others`` makes of a run, joint by joint, where it can."""
     fit = replace(others, weighted=True)
     solution, own = fit.solve(), replace(fit, factors=run.factors).solve()
-    friction = {name for one in model.effects if one.effect.dissipates for name in one.names}
+    friction = {name for one in model.effects if {"qd", "state"} & {*one.effect.needs} for name in one.names}
     shown = _shown(fit, solution)
     return [
         _foreseen(one, solution, own, friction)
         for one in run.factors
-        if one.rows and one.joint in solution.sigma and shown.hold(one.on(fit.names)[:, :-1])
+        if one.rows > _ROWS + len(friction & {*one.names})
+        if one.joint in solution.sigma and shown.hold(one.on(fit.names)[:, :-1])
     ]
 
 
@@ -105,9 +109,8 @@ def agreement(runs: Sequence[Observed], problem: Problem, model: Model) -> list[
             break
         numbers = model.robot.numbers
         if len(left) == 2:
-            joints = {one.joint: one for each in beside for one in sorted(each, key=lambda one: one.excess)}
             names = listed(one.sampled.run.name for one in left)
-            told = _told([one for one in joints.values() if one.odd], numbers)
+            told = _told(odd_of_two(beside), numbers)
             return [*notes, f"{names} do not agree on {told}: does one of them have {_OTHER}?"]
         told, name = _told([one for one in beside[worst] if one.odd], numbers), left[worst].sampled.run.name
         notes.append(f"{name} does not agree with the other runs on {told}: does it have {_OTHER}?")
@@ -115,6 +118,12 @@ def agreement(runs: Sequence[Observed], problem: Problem, model: Model) -> list[
         del left[worst]
         beside = _each(left, problem, model)
     return notes
+
+
+def odd_of_two(beside: Sequence[Sequence[Foreseen]]) -> list[Foreseen]:
+    """Of two runs, by each other, the joints that are odd in either, each as it is more so."""
+    by_excess = sorted((one for each in beside for one in each if one.odd), key=lambda one: one.excess)
+    return list({one.joint: one for one in by_excess}.values())
 
 
 def _told(some: Sequence[Foreseen], numbers: Sequence[int]) -> str:
@@ -191,6 +200,7 @@ class _Shown:
 def _shown(fit: Problem, solution: Solution) -> _Shown:
     W = np.concatenate([one.on(fit.names)[:, :-1] / solution.sigma[one.joint] for one in fit.factors])
     size = np.linalg.norm(W, axis=0)
-    size = np.where(size > 0, size, 1.0)
-    _, s, Vt = np.linalg.svd(W / size, full_matrices=False)
+    unexcited = silent(size)
+    size = np.where(unexcited, 1.0, size)
+    _, s, Vt = np.linalg.svd(np.where(unexcited, 0.0, W / size), full_matrices=False)
     return _Shown(size, Vt[nonzero(s)].T)

@@ -95,12 +95,12 @@ def consistent_fit(found: Identification, prior: Mapping[str, float] | None, wei
     for body in bodies:
         _raise_to_possible(body, {name: one for name, one in s.items() if name not in found.problem.fixed}, s)
     standard = {name: float(variable.value) for name, variable in s.items()}
-    for name, value in settled(model, found.problem.names, R, standard, prior or {}).items():
+    open_ = left_open(model, found.problem.names, R)
+    for name, value in settled(model, found.problem.names, R, open_, standard, prior or {}).items():
         standard[name] = s[name].value = value
     at = dict(found.problem.fixed) | {name: float(one.value) for name, one in values.items()}
     train = residuals([f for run in found.train for f in run.factors], at)
     test = residuals([f for run in found.test for f in run.factors], at) if found.test else None
-    open_ = left_open(model, found.problem.names, R)
     return ConsistentFit(standard, {name: at[name] for name in base}, weight, prior is not None, train, test, open_)
 
 

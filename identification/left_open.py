@@ -41,7 +41,9 @@ def left_open(model: Model, names: Sequence[str], R: Array) -> LeftOpen:
     """What rows ``R`` (r x p) of the estimated base parameters ``names`` (p) leave open; what is a part of a base
     parameter that was given instead is not.
     """
-    columns, free = _columns(model, names, R), _free(model, names)
+    columns, given = _columns(model, names, R), _given(model, names)
+    effects = names_of_effects(model.robot)
+    free = [p.name for p in model.standard_parameters if p.name in effects and p.name not in given]
     zero = {name for name, column in columns.items() if not column.any()}
     bodies = {
         joint.number: [name for stem in INERTIAL_STEMS if (name := f"{stem}{joint.number}") in columns]
@@ -53,17 +55,22 @@ def left_open(model: Model, names: Sequence[str], R: Array) -> LeftOpen:
     return LeftOpen(
         tuple(name for name in free if name not in seen),
         tuple(shared),
-        tuple(number for number, ten in bodies.items() if ten and zero.issuperset(ten)),
+        tuple(number for number, ten in bodies.items() if ten and zero.issuperset(ten) and not given & {*ten}),
     )
 
 
 def settled(
-    model: Model, names: Sequence[str], R: Array, found: Mapping[str, float], prior: Mapping[str, float]
+    model: Model,
+    names: Sequence[str],
+    R: Array,
+    open_: LeftOpen,
+    found: Mapping[str, float],
+    prior: Mapping[str, float],
 ) -> dict[str, float]:
-    """Effects' parameters that rows ``R`` (r x p) of the base parameters ``names`` (p) leave open, by name: the values
-    nearest to the ``prior``, or to zero, within their bounds, that make the same torques as those ``found``.
+    """Effects' parameters that rows ``R`` (r x p) of the base parameters ``names`` (p) leave ``open_``, by name: the
+    values nearest to the ``prior``, or to zero, within their bounds, that make the same torques as those ``found``.
     """
-    columns, open_ = _columns(model, names, R), left_open(model, names, R)
+    columns = _columns(model, names, R)
     lower, upper = (
         {p.name: none if bound is None else bound for p in model.standard_parameters for bound in [getattr(p, end)]}
         for end, none in (("lower", -np.inf), ("upper", np.inf))
@@ -87,12 +94,15 @@ def told(open_: LeftOpen, values: Mapping[str, float], prior: bool) -> list[str]
     notes = []
     zero, kept = ([name for name in open_.unseen if bool(values[name]) == some] for some in (False, True))
     if zero:
-        notes.append(f"no motion in the data shows {listed(zero)}: the physically consistent set has none of them")
+        notes.append(f"the physically consistent set is without {listed(zero)}: no motion in the data shows them")
     if kept:
-        notes.append(f"no motion in the data shows {listed(kept)}: the physically consistent set has them of the prior")
+        notes.append(
+            f"the physically consistent set has {listed(kept)} from the prior: no motion in the data shows that"
+        )
     if open_.bodies:
-        like = "as the prior has it" if prior else "a ball"
-        notes.append(f"no motion in the data shows {numbered('body', open_.bodies, 'bodies')}: each is {like}")
+        some = numbered("body", open_.bodies, "bodies")
+        like = "from the prior" if prior else "as a ball"
+        notes.append(f"the physically consistent set has {some} {like}: no motion in the data shows them")
     return notes
 
 
@@ -107,12 +117,9 @@ def _columns(model: Model, names: Sequence[str], R: Array) -> dict[str, Array]:
     return {name: 0.0 * one if out else one for (name, one), out in zip(columns.items(), dark, strict=True)}
 
 
-def _free(model: Model, names: Sequence[str]) -> list[str]:
-    """Effects' parameters that are no part of base parameters other than ``names``."""
-    groupings = model.grouping.numeric()
-    given = {name for base, terms in groupings.items() if base not in names for name in terms}
-    effects = names_of_effects(model.robot)
-    return [p.name for p in model.standard_parameters if p.name in effects and p.name not in given]
+def _given(model: Model, names: Sequence[str]) -> set[str]:
+    """Standard parameters that are parts of base parameters other than ``names``."""
+    return {name for base, terms in model.grouping.numeric().items() if base not in names for name in terms}
 
 
 def _matrix(columns: Mapping[str, Array], names: Sequence[str]) -> Array:
@@ -133,7 +140,14 @@ def _shortest(G: Array, h: Array) -> Array:
     """The shortest x with G x >= h, by non-negative least squares (Lawson and Hanson 1974, Solving Least Squares
     Problems, chapter 23).
     """
-    E = np.concatenate([G.T, h[None]])
+    # Of the order of one, so that no digits are lost of what is far from its bounds.
+    length = np.linalg.norm(G, axis=1)
+    some = length > 0
+    G, h = G[some] / length[some, None], h[some] / length[some]
+    scale = np.abs(h).max(initial=0.0)
+    if np.all(h <= 0):
+        return np.zeros(G.shape[1])
+    E = np.concatenate([G.T, h[None] / scale])
     f = np.eye(len(E))[-1]
     r = E @ nnls(E, f)[0] - f
-    return np.asarray(-r[:-1] / r[-1])
+    return np.asarray(-scale * r[:-1] / r[-1])

@@ -11,8 +11,10 @@ from identification.arrays import Array
 
 
 def recursion(factors: Sequence[Array], summands: Array) -> Array:
-    """x (N) with x[i] = factors[0][i] x[i-1] + factors[1][i] x[i-2] + ... + summands[i], and 0 for x before the first:
-    what it is goes into the first summands.
+    """x (N) with x[i] = factors[0][i] x[i-1] + factors[1][i] x[i-2] + ... + summands[i]; ``factors`` and ``summands``
+    are of N each.
+
+    x is 0 before the first: what it is goes into the first summands. What grows beyond all numbers is none.
     """
     bands = np.zeros((len(factors) + 1, len(summands)), order="F")
     for back, each in enumerate(factors, 1):
@@ -22,7 +24,7 @@ def recursion(factors: Sequence[Array], summands: Array) -> Array:
 
 
 def from_start(factors: Array, summands: Array, start: float) -> Array:
-    """z (N + 1) with z[0] = start, z[i + 1] = factors[i] z[i] + summands[i]."""
+    """z (N + 1) with z[0] = start, z[i + 1] = factors[i] z[i] + summands[i], of N ``factors`` and ``summands``."""
     summands = summands.copy()
     summands[:1] += factors[:1] * start
     return np.concatenate([[start], recursion([factors], summands)])

@@ -171,7 +171,7 @@ def opposed(place: Place, run: Sequence[Factor], values: Mapping[str, float]) ->
 def another_sign(place: Place, whose: str, of: str = "") -> InputError:
     """That torques of a run, those ``of`` a joint alone, have another sign than ``whose``."""
     problem = f"the torques{of} have another sign than {whose}"
-    return InputError(place, problem, "one sign in all runs; a sidecar can change it")
+    return InputError(place, problem, "one sign in all runs, of torques and of positions; a sidecar can change either")
 
 
 def misread(one: Sampled, regressors: Regressors) -> list[str]:

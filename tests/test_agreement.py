@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from generator.errors import InputError
+from identification.agreement import Foreseen, odd_of_two
 from identification.inverse_model import Options, identify
 from identification.observation import Motion, Regressors
 from identification.recipes import Recipe
@@ -77,16 +78,31 @@ def gains(run: Recorded) -> Recorded:
     return run.with_columns(tau2=1.2 * run.columns["tau2"])
 
 
-@pytest.mark.parametrize("change", [lost_home, gains])
-def test_a_run_of_another_state_is_told(change: object, links: Regressors, tmp_path: Path) -> None:
-    assert callable(change)
+@pytest.mark.parametrize(("change", "joints"), [(lost_home, (1,)), (gains, (2,))])
+def test_a_run_of_another_state_is_told(
+    change: Callable[[Recorded], Recorded], joints: tuple[int, ...], links: Regressors, tmp_path: Path
+) -> None:
     some = runs(links, 3)
     some[1] = change(some[1])
     (note,) = notes(links, saved(tmp_path, some))
-    assert note.startswith(f"{tmp_path / 'b.csv'} does not agree with the other runs on joint ")
-    assert "joint 2 (a fit of the others leaves " in note or change is lost_home
+    assert note.startswith(f"{tmp_path / 'b.csv'} does not agree with the other runs on joint {joints[0]} (a fit ")
+    assert all(f"joint {joint} (a fit " in note for joint in joints)
     (of_two,) = notes(links, saved(tmp_path, some[:2]))
     assert of_two.startswith(f"{tmp_path / 'a.csv'} and {tmp_path / 'b.csv'} do not agree on joint ")
+
+
+def test_of_two_runs_one_alone_may_foresee_the_other() -> None:
+    """A short run foresees little of a long one: what is odd in one direction is told of both."""
+    loud, unsure = (Foreseen(0, 100.0, 100.0, 50.0, 150.0, noise, uncertain) for noise, uncertain in ((1, 0), (1, 40)))
+    assert (loud.odd, unsure.odd) == (True, False)
+    for each in ([[loud], [unsure]], [[unsure], [loud]]):
+        assert odd_of_two(each) == [loud]
+
+
+def test_little_of_a_torque_that_hardly_changes_is_not_odd() -> None:
+    """A gain that drifts by a hundredth where a joint holds a weight."""
+    assert not Foreseen(0, 1000.0, 30.0, 10.0, 2000.0, 0.1, 0.0).odd
+    assert not Foreseen(0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0).odd
 
 
 def test_a_payload_of_which_nothing_is_said_is_told(links: Regressors, tmp_path: Path) -> None:

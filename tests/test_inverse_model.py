@@ -137,6 +137,7 @@ def coloured(links: Regressors, seed: int) -> Recorded:
     return run.with_columns(tau1=run.columns["tau1"] + noise[0], tau2=run.columns["tau2"] + 0.3 * noise[1])
 
 
+@pytest.mark.long
 def test_blocks_tell_the_uncertainty_under_coloured_noise(links: Regressors, folder: Path) -> None:
     """Estimates over many seeds are the judge; independent residuals promise too much."""
     plain, blocks, z = [], [], []

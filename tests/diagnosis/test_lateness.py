@@ -112,6 +112,7 @@ def test_torques_are_late_by_more_than_is_stated(tmp_path: Path) -> None:
     assert one.parameters["torque_delay"].value == pytest.approx(7e-3, abs=2e-4)
 
 
+@pytest.mark.long
 def test_torques_that_are_as_late_as_is_stated_are_nothing(tmp_path: Path) -> None:
     assert late_by(tmp_path, (4, 4), stated=4).verdict == NOTHING
 

@@ -33,6 +33,25 @@ def test_a_link_falls_freely_through_a_gap_and_lies_at_its_end() -> None:
     np.testing.assert_allclose(e[-1], -half - load / k, rtol=1e-6)
 
 
+def test_without_a_gap_a_link_swings_step_by_step() -> None:
+    """As the module's first lines have it, written out, with a link whose inertia changes and that moves at first."""
+    t = H * np.arange(SAMPLES)
+    one = link(30 * np.sin(5 * t), INERTIA + np.sin(2 * t))
+    smooth = one.load.copy()
+    smooth[1:-1] += np.diff(one.load, 2) / 12
+    k, d, e, speed = 9e3, 40.0, -2e-3, 0.07
+    found = played(one._replace(smooth=smooth), Spring(k, d, 0.0, H), (e, speed))
+    w = H * speed
+    for i, (load, M, c) in enumerate(zip(smooth, one.inertia, one.drag, strict=True)):
+        x = k * H**2 / M
+        second = 1 + x / 12 + x**2 / 240
+        slowed = (c + d) * H / (2 * M)
+        after = (w * (1 - slowed) - (load + k * e) * H**2 / M / second) / (1 + slowed)
+        expected = e, (w + after) / (2 * H), (after - w) / H**2 * second + (load - one.load[i]) / M
+        np.testing.assert_allclose(found[:, i], expected, rtol=1e-7, atol=1e-9)
+        e, w = e + after, after
+
+
 def test_many_drive_trains_are_each_by_itself() -> None:
     """Links and springs of different kinds; damped well, so that how they bounce does not grow from rounding."""
     t = H * np.arange(SAMPLES)

@@ -97,6 +97,7 @@ def test_the_flexible_set_has_the_stiffness_of_the_prior(prior: str | None, stif
     assert read(out / "arm.yaml").parameter_sets["diagnosed_flexible"].values["k1"].value == stiffness
 
 
+@pytest.mark.long
 def test_the_model_after_is_the_written_set_s_where_the_runs_hide_parameters(tmp_path: Path) -> None:
     """Runs that each hold a joint show sums of two inertias alone, which the run that tests takes apart."""
     of = two_links(tmp_path)

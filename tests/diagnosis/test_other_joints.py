@@ -42,7 +42,8 @@ def sources(folder: Path, hidden: Callable[[Array, Array], Array], held: float |
     return files
 
 
-@pytest.mark.parametrize(("hidden", "told"), [(dragged, True), pytest.param(bump, False, marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize(("hidden", "told"), [(dragged, True), (bump, False)])
 def test_only_what_follows_another_joint_is_told_so(
     hidden: Callable[[Array, Array], Array], told: bool, tmp_path: Path
 ) -> None:

@@ -119,6 +119,7 @@ def louder(number: int, t: Array, motion: Motion, tau: Array) -> Array:
     return np.asarray(tau + 3 * NOISE * np.random.default_rng(29).normal(size=tau.shape) * (number == 3))
 
 
+@pytest.mark.long
 def test_more_noise_is_no_contradiction(tmp_path: Path) -> None:
     found = diagnosis(tmp_path, louder)
     assert (found.verdict, found.findings) == (NOTHING, ())

@@ -29,11 +29,12 @@ Steps = Callable[[Array, Sequence[float], float, float], Array]
 
 def steps(rate: sympy.Expr, state: sympy.Symbol, speed: sympy.Symbol, values: Sequence[sympy.Symbol]) -> Steps:
     """How a ``state`` with this ``rate`` goes on at a ``speed``, which stays as it is for a step."""
-    slope = sympy.diff(rate, state).subs(sympy.Derivative(sympy.sign(state), state), 0)
+    slope = sympy.diff(rate, state)
+    if not slope.has(state):
+        return _at_once(rate.subs(state, 0), slope, speed, values)
+    slope = slope.subs(sympy.Derivative(sympy.sign(state), state), 0)
     slope = slope.replace(sympy.DiracDelta, lambda *_: sympy.S.Zero)
-    if slope.has(state):
-        return _one_by_one(rate, slope, state, speed, values)
-    return _at_once(sympy.expand(rate - slope * state), slope, speed, values)
+    return _one_by_one(rate, slope, state, speed, values)
 
 
 def _at_once(rest: sympy.Expr, slope: sympy.Expr, speed: sympy.Symbol, values: Sequence[sympy.Symbol]) -> Steps:

@@ -52,7 +52,9 @@ class Spring(NamedTuple):
 
 
 def played(link: Link, spring: Spring, start: tuple[float, float]) -> Array:
-    """Deflection, its speed and its acceleration (3 x N) from a ``start`` (e, e') on one drive train."""
+    """Deflection [rad, m], its speed and its acceleration (3 x N) from a ``start`` (e, e') on one drive train; of two
+    samples or more.
+    """
     h, first = spring.period, spring.period * start[1]
     second = np.ones(1) if spring.half else _second(spring.stiffness * (h * h / link.inertia))
     e = _in_gap(link, spring, start[0], first) if spring.half else _held(link, spring, second, start[0], first)
@@ -72,7 +74,7 @@ def torques_in_gaps(links: Link, springs: Spring, start: tuple[Array, Array]) ->
     e, w = start[0], h * start[1]
     for first in range(0, len(links.load), _STEPS):
         link = Link(*(each[first : first + _STEPS, :, None] for each in links))
-        # Values that are spread here need not be at every step, which takes longer.
+        # Broadcast once for all steps: at each it would take longer than the step.
         rates = [np.ascontiguousarray(one) for one in np.broadcast_arrays(*_in_gaps(link, springs))]
         ways = np.empty((len(link.load) + 1, *e.shape))
         ways[0] = w
@@ -86,10 +88,10 @@ def torques_in_gaps(links: Link, springs: Spring, start: tuple[Array, Array]) ->
 def _held(link: Link, spring: Spring, second: Array, e: float, w: float) -> Array:
     """Deflections (N + 1) on a drive train without a gap: a way is the difference of two of them."""
     slowed, pull, push = _slowed(link, spring, spring.damping), *_pulled(link, link.smooth, spring)
-    once, twice, summands = slowed * (2 - pull / second), 1 - 2 * slowed, -slowed * push / second
-    summands[0] += once[0] * e + twice[0] * (e - w)
-    summands[1] += twice[1] * e
-    return np.concatenate([[e], recursion([once, twice], summands)])
+    last, before_last, summands = slowed * (2 - pull / second), 1 - 2 * slowed, -slowed * push / second
+    summands[0] += last[0] * e + before_last[0] * (e - w)
+    summands[1] += before_last[1] * e
+    return np.concatenate([[e], recursion([last, before_last], summands)])
 
 
 def _in_gap(link: Link, spring: Spring, e: float, w: float) -> Array:
