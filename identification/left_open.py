@@ -97,7 +97,7 @@ def told(open_: LeftOpen, values: Mapping[str, float], prior: bool) -> list[str]
         notes.append(f"the physically consistent set is without {listed(zero)}: no motion in the data shows them")
     if kept:
         notes.append(
-            f"the physically consistent set has {listed(kept)} from the prior: no motion in the data shows that"
+            f"the physically consistent set has {listed(kept)} from the prior: no motion in the data shows them"
         )
     if open_.bodies:
         some = numbered("body", open_.bodies, "bodies")
