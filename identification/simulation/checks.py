@@ -122,7 +122,7 @@ def _check_robot(settings: Settings, robot: Robot) -> None:
     if settings.flexible and not robot.flexible:
         problem = f"{robot.name} has no elastic drive trains"
         raise InputError(command_line("--flexible"), problem, "a robot file with the key flexible")
-    named_set(robot, settings.set_name, command_line("--parameters"), replace(settings, parameters=None).set_name)
+    named_set(robot, settings.set_name, command_line("--parameters"), settings.default_set)
     if trajectory_of(settings.trajectory).flexible and not settings.flexible:
         problem = f"{settings.trajectory} needs elastic drive trains"
         raise InputError(command_line("--trajectory"), problem, "--flexible")

@@ -84,7 +84,12 @@ class Settings:
     @property
     def set_name(self) -> str:
         """The parameter set."""
-        return self.parameters or ("twin_flexible" if self.flexible else "twin")
+        return self.parameters or self.default_set
+
+    @property
+    def default_set(self) -> str:
+        """The parameter set where none is told."""
+        return "twin_flexible" if self.flexible else "twin"
 
     def warmth(self, t: Array) -> Array:
         """How warm the drives are at times (N) [s]: 1 - exp(-t/T) with T the time ``warm_up`` [s].
