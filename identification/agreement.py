@@ -18,8 +18,8 @@ from identification.arrays import Array
 from identification.factors import Factor, added
 from identification.least_squares import Problem, Solution
 from identification.observed import Observed
-from identification.rank import nonzero, silent
-from identification.suspicion import above_zero, another_sign, directed
+from identification.rank import in_lengths, nonzero
+from identification.signs import above_zero, another_sign, directed
 
 #: Part of what a run moves in directions that the others' rows do not show from which they do not foresee its torques.
 _UNSEEN = 1e-3
@@ -73,7 +73,7 @@ class Foreseen:
         return self.excess > _ODD
 
 
-def foreseen(run: Observed, others: Problem, model: Model) -> list[Foreseen]:
+def by_others(run: Observed, others: Problem, model: Model) -> list[Foreseen]:
     """What a fit of ``others`` makes of a run, joint by joint, where it can."""
     fit = replace(others, weighted=True)
     solution, own = fit.solve(), replace(fit, factors=run.factors).solve()
@@ -89,7 +89,7 @@ def foreseen(run: Observed, others: Problem, model: Model) -> list[Foreseen]:
 
 def of_one_sign(run: Observed, others: Problem, model: Model) -> None:
     """Raises InputError where torques of a joint of a ``run`` are the other way than a fit of ``others`` foresees."""
-    for one in foreseen(run, others, model):
+    for one in by_others(run, others, model):
         if one.opposite:
             number = model.robot.numbers[one.joint]
             raise another_sign(run.sampled.run.place, "those that are fitted", f" of joint {number}")
@@ -140,7 +140,7 @@ def _each(runs: Sequence[Observed], problem: Problem, model: Model) -> list[list
         return [[] for _ in runs]
     before, after = (_sums([one.factors for one in order]) for order in (runs, runs[::-1]))
     others = [added([*a, *b]) for a, b in zip(before, after[::-1], strict=True)]
-    return [foreseen(run, replace(problem, factors=each), model) for run, each in zip(runs, others, strict=True)]
+    return [by_others(run, replace(problem, factors=each), model) for run, each in zip(runs, others, strict=True)]
 
 
 def _sums(runs: Sequence[tuple[Factor, ...]]) -> list[tuple[Factor, ...]]:
@@ -199,8 +199,6 @@ class _Shown:
 
 def _shown(fit: Problem, solution: Solution) -> _Shown:
     W = np.concatenate([one.on(fit.names)[:, :-1] / solution.sigma[one.joint] for one in fit.factors])
-    size = np.linalg.norm(W, axis=0)
-    unexcited = silent(size)
-    size = np.where(unexcited, 1.0, size)
-    _, s, Vt = np.linalg.svd(np.where(unexcited, 0.0, W / size), full_matrices=False)
+    scaled, size, _ = in_lengths(W)
+    _, s, Vt = np.linalg.svd(scaled, full_matrices=False)
     return _Shown(size, Vt[nonzero(s)].T)

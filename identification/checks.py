@@ -10,16 +10,19 @@ from scipy.optimize import linear_sum_assignment
 from generator.errors import InputError
 from generator.robot.description import PRISMATIC, Joint, Robot
 from identification.arrays import Array
-from identification.neighbours import ARITHMETIC, at_extremes
+from identification.neighbours import ARITHMETIC, at_extremes, in_a_row
 from identification.recording import A_PART, Where
 from identification.signals import Measured
+from identification.timing import IN_A_ROW
 
 #: Beyond the limits, in parts of the range, that a position may be.
 _BEYOND = 0.05
 #: Positions [rad] and speeds [rad/s, m/s] that no joint without limits reaches.
 _TURNS, _FAST, _JUMP = 4 * np.pi, 40.0, 100.0
-#: Parts of a run's samples up to which those outside are wrong ones, and beyond which they may be in another unit.
-_FEW, _MOST = 0.01, 0.5
+#: Position [rad] that hardly any joint with limits reaches.
+_A_TURN = 2 * np.pi
+#: Part of a run's samples up to which those outside, few in a row, are wrong ones; more in a row are none.
+_FEW = 0.01
 #: Size of a number in whatever unit that is none of a sensor.
 _HUGE = 1e30
 #: Steps of an encoder at once within a sample from which a motion is abrupt.
@@ -92,24 +95,29 @@ def _inside(x: Array, joint: Joint, name: str, where: Where) -> None:
     if joint.limits is not None:
         lower, upper = joint.limits
         allowed = _BEYOND * (upper - lower)
-        bad = (x < lower - allowed) | (x > upper + allowed)
-        turned = np.radians(x)
-        inside = np.abs(x).max() > 2 * np.pi and turned.min() >= lower - allowed and turned.max() <= upper + allowed
+        least, most = lower - allowed, upper + allowed
         beyond, expected = f"outside of {lower:.4g} to {upper:.4g}", f"{unit} within the robot's limits"
-        hint = (
-            "are these degrees" if inside and unit == "rad" and bad.mean() > _MOST else "is this a run of another robot"
-        )
+        other = "is this a run of another robot"
     elif unit == "rad":
-        bad = np.abs(x) > _TURNS
+        least, most = -_TURNS, _TURNS
         beyond, expected = "more than two turns", "rad, or limits in the robot file"
-        hint = "are these degrees" if bad.mean() > _MOST else "does the joint turn on"
+        other = "does the joint turn on"
     else:
         return
+    bad = (x < least) | (x > most)
     if bad.any():
         row = int(np.argmax(bad))
         counted = f"in {bad.sum()} of {len(x)} samples, of which this is the first"
         problem = f"{name} gives joint {joint.number} {x[row]:.6g} {unit}, {beyond}, {counted}"
-        hint = f"{hint}?" if bad.mean() > _FEW else "a wrong row may be deleted, it is a lost sample then"
+        few = max(one.stop - one.start for one in in_a_row(bad)) <= IN_A_ROW
+        turned = np.radians(x)
+        if few and bad.mean() <= _FEW:
+            hint = "a wrong row may be deleted, it is a lost sample then"
+        elif few or unit != "rad" or turned.min() < least or turned.max() > most:
+            hint = f"{other}?"
+        else:
+            sure = joint.limits is not None and np.abs(x).max() > _A_TURN
+            hint = "are these degrees?" if sure else f"are these degrees, or {other}?"
         raise InputError(where(row, name), problem, f"{expected}; {hint}")
 
 

@@ -29,7 +29,8 @@ from identification.sampling import SPOILED, Rows, Sampled, sampled
 from identification.set_values import shown_together
 from identification.shared_samples import fitted_too, unshared
 from identification.sidecar import Payload, by_name, check_carried
-from identification.suspicion import beyond, directed, of_one_sense, opposed, ordered, suspect
+from identification.signs import directed, opposed
+from identification.suspicion import beyond, of_one_sense, ordered, suspect
 
 #: Residual of the essential parameters, in parts of that of all, from which it is told.
 _COSTLY = 2.0

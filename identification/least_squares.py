@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from generator.words import listed
 from identification.arrays import Array
 from identification.factors import Factor, triangular
-from identification.rank import nonzero, not_identifiable, silent
+from identification.rank import in_lengths, nonzero, not_identifiable, silent
 
 #: Residuals that are rounding, in parts of the torques, and the smallest number that one may divide by.
 _ROUNDING, _TINY = 1e-12, 1e-300
@@ -174,19 +174,16 @@ class _Solved:
         reduced = triangular(stacked)
         R, z = reduced[:, :-1], reduced[:, -1]
         count = R.shape[1]
-        size = np.linalg.norm(R, axis=0)
-        dark = silent(size)
-        scale = np.where(dark, 1.0, size)
-        scaled = np.where(dark, 0.0, R / scale)
-        if not count or dark.all():
-            return cls(np.zeros(count), np.zeros((count, count)), dark, np.inf, np.inf, 0)
+        scaled, scale, unexcited = in_lengths(R)
+        if not count or unexcited.all():
+            return cls(np.zeros(count), np.zeros((count, count)), unexcited, np.inf, np.inf, 0)
         U, s, Vt = np.linalg.svd(scaled, full_matrices=True)
         s = np.concatenate([s, np.zeros(count - len(s))])
         rank = int(nonzero(s).sum())
         V, s_seen = Vt[:rank].T, s[:rank]
-        chi = np.where(dark, 0.0, (V @ ((U[:, :rank].T @ z) / s_seen)) / scale)
+        chi = np.where(unexcited, 0.0, (V @ ((U[:, :rank].T @ z) / s_seen)) / scale)
         inverse = ((V / s_seen**2) @ V.T) / np.outer(scale, scale)
-        hidden = dark | not_identifiable(Vt[rank:])
+        hidden = unexcited | not_identifiable(Vt[rank:])
         whole = rank == count
         condition = float(np.linalg.cond(R)) if whole else np.inf
         return cls(chi, inverse, hidden, condition, float(s[0] / s_seen[-1]) if whole else np.inf, rank)

@@ -113,8 +113,8 @@ def _columns(model: Model, names: Sequence[str], R: Array) -> dict[str, Array]:
     for base, terms in model.grouping.numeric().items():
         for name, coefficient in terms.items() if base in place else ():
             columns[name] = columns.get(name, np.zeros(len(R))) + coefficient * R[:, place[base]]
-    dark = silent(np.array([np.linalg.norm(column) for column in columns.values()]))
-    return {name: 0.0 * one if out else one for (name, one), out in zip(columns.items(), dark, strict=True)}
+    unexcited = silent(np.array([np.linalg.norm(column) for column in columns.values()]))
+    return {name: 0.0 * one if out else one for (name, one), out in zip(columns.items(), unexcited, strict=True)}
 
 
 def _given(model: Model, names: Sequence[str]) -> set[str]:

@@ -10,7 +10,7 @@ from generator.symbolic.parameter_sets import resolved
 
 #: What a robot without any set needs, and where it is to say how a robot moves what will do.
 _NONE = "one in section parameters of the robot file, which has none"
-_ROUGH = "; estimated bodies and friction will do"
+_ROUGH = "; estimated values will do"
 
 
 def named_set(robot: Robot, name: str, place: Place, default: str = "") -> ParameterSet:

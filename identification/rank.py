@@ -35,3 +35,11 @@ def silent(size: Array) -> NDArray[np.bool_]:
     """Which columns, by their lengths ``size`` (p), are zero but for rounding."""
     result: NDArray[np.bool_] = size <= _SILENT * size.max(initial=0.0)
     return result
+
+
+def in_lengths(R: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
+    """Columns (r x p) in units of their lengths (p), and which of them are silent: these are zero, their unit one."""
+    size = np.linalg.norm(R, axis=0)
+    unexcited = silent(size)
+    size = np.where(unexcited, 1.0, size)
+    return np.where(unexcited, 0.0, R / size), size, unexcited

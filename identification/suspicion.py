@@ -15,9 +15,8 @@ import numpy as np
 import sympy
 from numpy.typing import NDArray
 
-from generator.errors import InputError, Place
+from generator.errors import InputError
 from generator.robot.description import REVOLUTE, Robot
-from generator.symbolic.model import Model
 from generator.words import listed
 from identification.arrays import Array
 from identification.drive_train import constants, coupling
@@ -27,16 +26,13 @@ from identification.least_squares import Problem
 from identification.observation import Motion, Regressors
 from identification.residuals import Residual, Residuals
 from identification.sampling import Sampled
+from identification.signs import SENSE
 
 #: Residual of a joint [% of the spread] from which swapped columns are looked for, and that of all joints together
 #: from which the data are refused.
 _DOUBTFUL, _REFUSED = 10.0, 50.0
-#: Correlation of a run's torques with what a model makes of them from which their signs are others.
-REVERSED = -0.5
 #: How many times what is fitted leaves of a torque a test may leave.
 _FURTHER = 3.0
-#: Standard deviations from which a parameter's sign is told for sure and from which it is likely; how many must be.
-_SURE, _LIKELY, _SEVERAL = 4.0, 2.5, 2
 #: By how much the product of the joints' residuals must fall.
 _BETTER = 20.0
 #: The same where much stays unexplained, for a joint that is read wrong; the logarithm by which two may differ that do
@@ -44,8 +40,6 @@ _BETTER = 20.0
 _BETTER_MISREAD, _ALIKE, _ZEROS = 2.0, 0.2, (-90, 90, 180)
 #: Factors by which efforts in another unit are too small or too large: m, k.
 _UNITS = (1e-3, 1e3)
-#: What is asked of columns whose sign is wrong.
-_SENSE = "torques of the drives, and positions, of one sense; a sidecar can change the sign of either"
 #: Samples that the fits are repeated on.
 _THINNED = 1500
 #: Rows for each parameter that a joint must have for that, those alone counted that the filter leaves independent; and
@@ -118,37 +112,6 @@ def ordered(runs: Sequence[Sampled], regressors: Regressors, residuals: Residual
             _in_order(one, regressors, bad)
 
 
-def directed(
-    place: Place, model: Model, values: Mapping[str, float], std: Mapping[str, float], aside: Collection[int] = ()
-) -> None:
-    """Raises InputError where all that a fit shows of friction and inertia that cannot be negative is, by far, of all
-    joints or of one: the torques have the other sign. ``std`` are standard deviations by name, of what was fitted and
-    shows. One of joints number ``aside`` tells nothing by itself.
-    """
-    sizes = above_zero(model, values, std)
-    moving = set(model.robot.numbers)
-    for joints in (moving, *({number} for number in sorted(moving.difference(aside)))):
-        mine = [size for joint, size in sizes if joint in joints]
-        sure = [size for size in mine if abs(size) > _SURE]
-        likely = [size for size in mine if abs(size) > _LIKELY]
-        if len(likely) >= _SEVERAL and max(likely) < 0 and sure:
-            whose = "" if joints == moving else f" of joint {min(joints)}"
-            problem = f"all friction and inertia that the torques{whose} show alone is negative"
-            raise InputError(place, problem, _SENSE)
-
-
-def above_zero(model: Model, values: Mapping[str, float], std: Mapping[str, float]) -> list[tuple[int, float]]:
-    """Friction and inertia that cannot be negative and a fit shows, each with its joint's number, in its standard
-    deviations ``std``, those by name of what was fitted and shows.
-    """
-    storing = {name for one in model.effects if one.effect.potential_energy for name in one.names}
-    return [
-        (one.joint, values[one.name] / std[one.name])
-        for one in model.base_parameters
-        if one.lower == 0.0 and std.get(one.name) and one.name not in storing
-    ]
-
-
 def of_one_sense(runs: Sequence[Sampled], regressors: Regressors, residuals: Residuals) -> None:
     """Raises InputError where ``residuals`` are large and one of the runs is explained far better with another sign of
     one column.
@@ -156,22 +119,6 @@ def of_one_sense(runs: Sequence[Sampled], regressors: Regressors, residuals: Res
     if _doubtful(residuals):
         for one in runs:
             _of_one_sense(one, regressors)
-
-
-def opposed(place: Place, run: Sequence[Factor], values: Mapping[str, float]) -> None:
-    """Raises InputError where the torques of a ``run``, each joint's in parts of its size, are the other way than those
-    that ``values`` of all parameters make along it.
-    """
-    pairs = [(one.R[:, -1] / one.norm, one.with_torques(values).R[:, -1] / one.norm) for one in run if one.norm]
-    product, made = (sum(float(a @ b) for a, b in each) for each in (pairs, [(b, b) for _, b in pairs]))
-    if product < REVERSED * np.sqrt(len(pairs) * made):
-        raise another_sign(place, "those that are fitted")
-
-
-def another_sign(place: Place, whose: str, of: str = "") -> InputError:
-    """That torques of a run, those ``of`` a joint alone, have another sign than ``whose``."""
-    problem = f"the torques{of} have another sign than {whose}"
-    return InputError(place, problem, "one sign in all runs, of torques and of positions; a sidecar can change either")
 
 
 def misread(one: Sampled, regressors: Regressors) -> list[str]:
@@ -315,7 +262,7 @@ def _of_one_sense(one: Sampled, regressors: Regressors) -> None:
     best = min(misfits.values(), default=np.inf)
     if best < given.misfit(same) - np.log(_BETTER):
         alike = [what for what, x in misfits.items() if x < best + _ALIKE]
-        raise InputError(one.run.place, f"{' or '.join(alike)} look of the wrong sign", _SENSE)
+        raise InputError(one.run.place, f"{' or '.join(alike)} look of the wrong sign", SENSE)
 
 
 def _mixed(robot: Robot, P: Array, by_motors: bool) -> Iterator[tuple[str, Array, Array]]:

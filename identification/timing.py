@@ -19,7 +19,7 @@ _EVEN, _GAP = 0.02, 0.5
 #: its times that is left without it.
 _OFF, _SMOOTHER = 0.4, 0.8
 #: Samples in a row that a spline stands for, and the part of a run that may be lost.
-_IN_A_ROW, _LOST = 4, 0.1
+IN_A_ROW, _LOST = 4, 0.1
 #: Steps in a row of which this many are of several samples at another rate: single ones that are lost come as close by
 #: chance hardly ever.
 _WINDOW, _SEVERAL = 8, 7
@@ -136,5 +136,5 @@ def _samples(steps: Array, usual: float) -> NDArray[np.int_]:
     samples: NDArray[np.int_] = np.rint(steps / usual).astype(int)
     lost = np.maximum(samples - 1, 0)
     slower = np.convolve(lost > 0, np.ones(_WINDOW)).max() >= _SEVERAL
-    few = lost.max() <= _IN_A_ROW and lost.sum() <= _LOST * len(steps) and not slower
+    few = lost.max() <= IN_A_ROW and lost.sum() <= _LOST * len(steps) and not slower
     return np.maximum(samples, 1) if few else np.ones_like(samples)

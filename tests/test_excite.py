@@ -261,7 +261,7 @@ def test_a_wrong_option_is_one_line(
 @pytest.mark.parametrize(
     ("sets", "expected"),
     [
-        ({}, "one in section parameters of the robot file, which has none; estimated bodies and friction will do"),
+        ({}, "one in section parameters of the robot file, which has none; estimated values will do"),
         ({"rough": TRUTH}, "one of rough"),
     ],
 )

@@ -160,6 +160,17 @@ def degrees(run: Recorded) -> Recorded:
     return run.with_columns(q1=np.degrees(run.columns["q1"]), q2=np.degrees(run.columns["q2"]))
 
 
+def degrees_in_part(run: Recorded) -> Recorded:
+    """The joint stays near zero for the most part."""
+    q1 = run.columns["q1"]
+    return run.with_columns(q1=np.degrees(q1 * (q1 / np.max(np.abs(q1))) ** 8))
+
+
+def few_degrees(run: Recorded) -> Recorded:
+    q1 = run.columns["q1"]
+    return run.with_columns(q1=5.0 / np.max(np.abs(q1)) * q1)
+
+
 def gap(run: Recorded) -> Recorded:
     return Recorded({name: np.delete(values, slice(500, 600)) for name, values in run.columns.items()})
 
@@ -213,6 +224,12 @@ BAD: dict[str, tuple[Callable[[Recorded], Recorded], str]] = {
         r":\d+:\d+: q1 stays at [\d.]+ from here for \d+ rows, expected a position that is not",
     ),
     "degrees": (degrees, r"q\d gives joint \d [-\d.]+ rad, outside of -2.793 to 2.793, .* are these degrees\?"),
+    "degrees in part": (degrees_in_part, r"q1 gives joint 1 .* are these degrees\?"),
+    "few degrees": (few_degrees, r"q1 gives joint 1 .*; are these degrees, or is this a run of another robot\?"),
+    "five rows in a row": (
+        lambda r: put(r, "q1", slice(700, 705), 3.5),
+        r":702:\d+: q1 gives joint 1 3.5 rad, .* in 5 of \d+ samples, .*; are these degrees, or is this a run of",
+    ),
     "another pose": (shifted, r"q2 gives joint 2 [\d.]+ rad, outside of .* is this a run of another robot\?"),
     "swapped": (exchanged, r"q1 follows qr2, not qr1, expected columns in the joints' order; are two swapped\?"),
     "another robot": (lambda r: r.with_columns(q3=r.columns["q1"]), "column q3, but two_links has 2 moving joints"),

@@ -19,6 +19,7 @@ from generator.progress import bar, stage
 from generator.resources import find_robot
 from generator.words import listed
 from generator.writing import spare, writable
+from identification.default_sets import RIGID
 from identification.extras import needing
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     takes_robot(parser)
     takes_out(parser, "where the files go (default: excitation/ROBOT)")
     parser.add_argument(
-        "--parameters", metavar="SET", default="twin", help="parameter set of the robot file (default: twin)"
+        "--parameters", metavar="SET", default=RIGID, help="parameter set of the robot file (default: %(default)s)"
     )
     _motion(parser.add_argument_group("motion"))
     _measured(parser.add_argument_group("what is measured"))

@@ -24,6 +24,7 @@ from generator.progress import bar, stage
 from generator.resources import find_robot
 from generator.words import plural
 from generator.writing import spare, writable
+from identification.default_sets import FLEXIBLE, RIGID
 from identification.extras import needing
 
 if TYPE_CHECKING:
@@ -39,7 +40,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--parameters",
         metavar="SET",
-        help="parameter set of the robot file (default: twin; twin_flexible with --flexible)",
+        help=f"parameter set of the robot file (default: {RIGID}; {FLEXIBLE} with --flexible)",
     )
     _motion(parser.add_argument_group("motion"))
     _controller(parser.add_argument_group("controller"))

@@ -15,7 +15,8 @@ from identification.diagnosis.runs.scene import Scene
 from identification.diagnosis.search.loop import plain_fit
 from identification.observation import Regressors
 from identification.residuals import Residual, Residuals
-from identification.suspicion import REVERSED, another_sign, directed, misread, of_one_sense, ordered, suspect
+from identification.signs import REVERSED, another_sign, directed
+from identification.suspicion import misread, of_one_sense, ordered, suspect
 
 #: Least singular value that a run tells parameters from, and a product that is none.
 _RANK, _NOTHING = 1e-9, 1e-300

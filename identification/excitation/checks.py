@@ -6,9 +6,10 @@ from generator.bounds import above, not_negative, whole_number
 from generator.command_line import command_line
 from generator.errors import InputError
 from generator.robot.description import Robot
+from identification.default_sets import RIGID
 from identification.excitation.criterion import CONDITION, DETERMINANT
 from identification.excitation.design import DRAWN
-from identification.excitation.request import SET, Request
+from identification.excitation.request import Request
 from identification.named_set import named_set
 
 #: Rows that a motion may have.
@@ -21,7 +22,7 @@ def check(request: Request, robot: Robot) -> None:
     """Raises InputError for what no motion can have, for noise that is none or not that of the robot's motors, and for
     a parameter set that the robot has not.
     """
-    named_set(robot, request.parameters, command_line("--parameters"), SET)
+    named_set(robot, request.parameters, command_line("--parameters"), RIGID)
     _check_motion(request)
     _check_noise(request, len(robot.moving))
     fewest = request.filters_of(robot).at(request.rate).fewest

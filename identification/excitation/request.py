@@ -7,12 +7,10 @@ from dataclasses import dataclass
 
 from generator.robot.description import Robot
 from identification import recipes
+from identification.default_sets import RIGID
 from identification.excitation.criterion import DETERMINANT
 from identification.excitation.noise import PART
 from identification.recipes import Recipe
-
-#: The set of a robot that none is named for.
-SET = "twin"
 
 
 @dataclass(frozen=True)
@@ -29,7 +27,7 @@ class Request:
     ``seed``.
     """
 
-    parameters: str = SET
+    parameters: str = RIGID
     frequency: float = 0.1
     harmonics: int = 5
     periods: int = 2

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from identification.arrays import Array
+from identification.default_sets import FLEXIBLE, RIGID
 from identification.sidecar import Payload
 from identification.trajectory import Value
 
@@ -89,7 +90,7 @@ class Settings:
     @property
     def default_set(self) -> str:
         """The parameter set where none is told."""
-        return "twin_flexible" if self.flexible else "twin"
+        return FLEXIBLE if self.flexible else RIGID
 
     def warmth(self, t: Array) -> Array:
         """How warm the drives are at times (N) [s]: 1 - exp(-t/T) with T the time ``warm_up`` [s].

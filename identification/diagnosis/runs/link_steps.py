@@ -56,14 +56,10 @@ def played(link: Link, spring: Spring, start: tuple[float, float]) -> Array:
     samples or more.
     """
     h, first = spring.period, spring.period * start[1]
-    second = np.ones(1) if spring.half else _second(spring.stiffness * (h * h / link.inertia))
-    e = _in_gap(link, spring, start[0], first) if spring.half else _held(link, spring, second, start[0], first)
+    e, second, beside = (_in_gap if spring.half else _held)(link, spring, start[0], first)
     after = np.diff(e)
     before = np.concatenate([[first], after[:-1]])
-    acceleration = (after - before) * (second / (h * h))
-    if not spring.half:
-        acceleration += (link.smooth - link.load) / link.inertia
-    return np.stack([e[:-1], (before + after) / (2 * h), acceleration])
+    return np.stack([e[:-1], (before + after) / (2 * h), (after - before) * (second / (h * h)) + beside])
 
 
 def torques_in_gaps(links: Link, springs: Spring, start: tuple[Array, Array]) -> Iterator[Array]:
@@ -85,22 +81,26 @@ def torques_in_gaps(links: Link, springs: Spring, start: tuple[Array, Array]) ->
         yield np.diff(ways, axis=0) * (link.inertia / (h * h))
 
 
-def _held(link: Link, spring: Spring, second: Array, e: float, w: float) -> Array:
-    """Deflections (N + 1) on a drive train without a gap: a way is the difference of two of them."""
+def _held(link: Link, spring: Spring, e: float, w: float) -> tuple[Array, Array, Array]:
+    """Deflections (N + 1) on a drive train without a gap, of which a way is the difference of two; their second
+    derivative in parts of the second difference, and what comes to it beside.
+    """
+    second = _second(spring.stiffness * (spring.period**2 / link.inertia))
     slowed, pull, push = _slowed(link, spring, spring.damping), *_pulled(link, link.smooth, spring)
     last, before_last, summands = slowed * (2 - pull / second), 1 - 2 * slowed, -slowed * push / second
     summands[0] += last[0] * e + before_last[0] * (e - w)
     summands[1] += before_last[1] * e
-    return np.concatenate([[e], recursion([last, before_last], summands)])
+    deflections = np.concatenate([[e], recursion([last, before_last], summands)])
+    return deflections, second, (link.smooth - link.load) / link.inertia
 
 
-def _in_gap(link: Link, spring: Spring, e: float, w: float) -> Array:
-    """Deflections (N + 1) on a drive train with a gap."""
+def _in_gap(link: Link, spring: Spring, e: float, w: float) -> tuple[Array, Array, Array]:
+    """The same on a drive train with a gap."""
     samples = len(link.load)
     count = -(-samples // _STEPS)
     rates = np.pad(np.stack(_in_gaps(link, spring)), ((0, 0), (0, count * _STEPS - samples)), mode="edge")
     _, after = _many_steps(count)([e, w], rates, np.full(count, spring.half)[None])
-    return np.concatenate([[e], np.asarray(after)[0, :samples]])
+    return np.concatenate([[e], np.asarray(after)[0, :samples]]), np.ones(1), np.zeros(1)
 
 
 def _in_gaps(link: Link, spring: Spring) -> tuple[Value, Value, Value, Value]:
