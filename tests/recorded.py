@@ -172,7 +172,7 @@ def recorded(
 ) -> Recorded:
     """A run of t, q and tau; ``noise`` is in parts of each torque's spread, ``payload`` ten inertial parameters."""
     t, motion = fourier(of.model.robot, duration, rate, seed)
-    tau = of.torques(truth, motion)
+    tau = of.torques(truth, of.completed(motion, 1 / rate))
     if payload is not None:
         tau = tau + np.array([np.asarray(payload) @ W for W in of.payload(motion)])
     tau = tau + noise * tau.std(axis=1)[:, None] * np.random.default_rng(seed + 100).normal(size=tau.shape)

@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 
 from generator.errors import InputError
+from generator.robot.readers import read
 from identification.agreement import Foreseen, odd_of_two
 from identification.inverse_model import Options, identify
 from identification.observation import Motion, Regressors
 from identification.recipes import Recipe
-from tests.recorded import TRUTH, Recorded, as_recorded, fourier, recorded
+from tests.recorded import TRUTH, TWO_LINKS, Recorded, as_recorded, fourier, recorded
 
 RECIPE = Recipe(dynamics=4.0)
 FRICTION = {name: TRUTH[name] for name in ("Fv1", "Fc1", "Fv2", "Fc2")}
@@ -159,3 +160,30 @@ def test_a_joint_that_stands_still_in_the_others_is_not_compared(links: Regresso
     odd = [some[0], some[1].with_columns(tau1=1.1 * some[1].columns["tau1"])]
     (note,) = notes(links, saved(tmp_path, odd))
     assert "do not agree on joint 1 (" in note
+
+
+def test_a_payload_that_is_estimated_is_of_the_runs_that_carry_it(links: Regressors, tmp_path: Path) -> None:
+    """Five runs of which three carry it and say so; then one of these that says so and does not."""
+    point = [0, 0, 0, 0, 0, 0, 0.4, 0, 0, 1.0]
+    some = [recorded(links, TRUTH, seed=k, noise=0.01, payload=point if k > 2 else None) for k in range(1, 6)]
+    paths = saved(tmp_path, some)
+    for one in paths[2:]:
+        one.with_suffix(".yaml").write_text("payload: {name: box}\n")
+    assert not notes(links, paths)
+    recorded(links, TRUTH, seed=5, noise=0.01).save(paths[4])
+    (note,) = notes(links, paths)
+    assert note.startswith(f"{paths[4]} does not agree with the other runs on joint ")
+
+
+def test_friction_that_builds_up_over_a_way_is_another_in_warm_runs(tmp_path: Path) -> None:
+    """Presliding in the model: its amplitude is friction, which may differ from run to run."""
+    path = tmp_path / "presliding.yaml"
+    path.write_text(TWO_LINKS + "  - {effect: dahl_friction, joint: 1, values: {xs: 0.01 rad}}\n")
+    bristle = Regressors(read(path))
+    (name,) = {*bristle.names} - {*TRUTH}
+    some = [recorded(bristle, {**TRUTH, name: size}, seed=k, noise=0.01) for k, size in enumerate((40, 20, 40), 1)]
+    paths = saved(tmp_path, some)
+    assert not notes(bristle, paths)
+    lost_home(some[1]).save(paths[1])
+    (note,) = notes(bristle, paths)
+    assert note.startswith(f"{paths[1]} does not agree with the other runs on joint 1 (")
