@@ -54,6 +54,9 @@ def test_results_and_robot_file(folder: Path, capsys: pytest.CaptureFixture[str]
     assert (done.status, done.err.splitlines()[-1]) == (0, "writing the report")
     assert done.out.startswith("two_links: 13 parameters, ")
     found = results(folder)
+    table = [line.split(maxsplit=5) for line in done.out.splitlines()]
+    told = {line[0]: line[5] for line in table if line and line[0] in TRUTH}
+    assert told == {name: one["unit"] for name, one in found["parameters"].items()}
     assert set(found["parameters"]) == set(TRUTH)
     for name, one in found["parameters"].items():
         assert one["value"] == pytest.approx(TRUTH[name], abs=5 * one["std"] + 0.01 * abs(TRUTH[name]))

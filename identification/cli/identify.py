@@ -228,6 +228,15 @@ def _recipe(arguments: argparse.Namespace, regressors: Regressors) -> Recipe:
     return base.changed(**{name: getattr(arguments, name) for name in names})
 
 
+def _units(found: Identification) -> dict[str, str]:
+    """Those of all parameters by name, of payloads too."""
+    from identification.sidecar import UNITS
+
+    payloads = [payload for one in found.train if (payload := one.sampled.run.payload) is not None]
+    own = {name: UNITS[stem] for one in payloads for stem, name in one.names().items()}
+    return {parameter.name: parameter.unit for parameter in found.regressors.model.base_parameters} | own
+
+
 def _summary(found: Identification, consistent: ConsistentFit | None) -> str:
     lines = [
         f"{found.robot.name}: {plural(len(found.full.sought), 'parameter')}, "
@@ -236,14 +245,16 @@ def _summary(found: Identification, consistent: ConsistentFit | None) -> str:
     lines += [f"note: {note}" for note in found.notes]
     solution = found.full.solution
     names = [name for name in solution.values if name in found.full.sought or name in found.options.fixed]
+    units = _units(found)
     width = max(map(len, [*names, "parameter"]))
-    lines.append(f"{'parameter'.ljust(width)} {'value':>12} {'std':>10} {'std %':>9}  essential")
+    lines.append(f"{'parameter'.ljust(width)} {'value':>12} {'std':>10} {'std %':>9}  essential  unit")
     for name in names:
         hidden = name in solution.hidden
         value = "unknown" if hidden else f"{solution.values[name]:.7g}"
         mark = "fixed" if name not in found.full.sought else "yes" if name in found.essential_names else "no"
         lines.append(
-            f"{name.ljust(width)} {value:>12} {solution.std(name):>10.4g} {solution.relative_std(name):>9.4g}  {mark}"
+            f"{name.ljust(width)} {value:>12} {solution.std(name):>10.4g} {solution.relative_std(name):>9.4g}  "
+            f"{mark:<9}  {units[name]}"
         )
     lines.append(
         f"condition of W   {solution.condition:.7g}, with columns of unit length {solution.scaled_condition:.6g}"
