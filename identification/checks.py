@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
 from generator.errors import InputError
@@ -13,16 +14,16 @@ from identification.arrays import Array
 from identification.neighbours import ARITHMETIC, at_extremes, in_a_row
 from identification.recording import A_PART, Where
 from identification.signals import Measured
-from identification.timing import IN_A_ROW
+from identification.timing import Clock
 
 #: Beyond the limits, in parts of the range, that a position may be.
 _BEYOND = 0.05
 #: Positions [rad] and speeds [rad/s, m/s] that no joint without limits reaches.
 _TURNS, _FAST, _JUMP = 4 * np.pi, 40.0, 100.0
-#: Position [rad] that hardly any joint with limits reaches.
-_A_TURN = 2 * np.pi
-#: Part of a run's samples up to which those outside, few in a row, are wrong ones; more in a row are none.
-_FEW = 0.01
+#: Part of a run's samples beyond which those outside are no wrong ones.
+_MOST = 0.5
+#: Size [rad] up to which a number may be a joint's angle, though it is beyond this one's limits.
+_ANGLE = 2 * np.pi
 #: Size of a number in whatever unit that is none of a sensor.
 _HUGE = 1e30
 #: Steps of an encoder at once within a sample from which a motion is abrupt.
@@ -68,8 +69,9 @@ def whole(found: Measured, where: Where) -> None:
             raise InputError(where(row, name), problem, f"rows without gaps; {A_PART}")
 
 
-def positions(q: Array, found: Measured, robot: Robot, period: float, where: Where, resting: bool = False) -> None:
-    """Joint positions (n x N): inside the limits, without jumps, not in degrees, not held at an end while moving.
+def positions(q: Array, found: Measured, robot: Robot, ticks: Clock, where: Where, resting: bool = False) -> None:
+    """Joint positions (n x M) at the rows of ``ticks``: inside the limits, without jumps, not in degrees, not held at
+    an end while moving.
 
     A robot that is ``resting`` may stop anywhere.
 
@@ -77,48 +79,51 @@ def positions(q: Array, found: Measured, robot: Robot, period: float, where: Whe
     """
     for k, joint in enumerate(robot.moving):
         name = found.names[k]
-        _inside(q[k], joint, name, where)
+        _inside(q[k], joint, name, ticks, where)
         steps = np.abs(np.diff(q[k]))
-        jumps = np.flatnonzero(steps > max(_JUMP * period, 20 * float(np.quantile(steps, 0.99))))
+        jumps = np.flatnonzero(steps > max(_JUMP * ticks.period, 20 * float(np.quantile(steps, 0.99))))
         if jumps.size:
             # There and back again: what comes first leads to the wrong row.
             row = int(jumps[0])
             problem = f"{name} jumps from {q[k, row]:.6g} to {q[k, row + 1]:.6g}"
             raise InputError(where(row + 1, name), problem, "positions without jumps")
-        _speed(q[k], joint, name, period, where)
+        _speed(q[k], joint, name, ticks.period, where)
         if not resting:
             _held(q[k], steps, name, where)
 
 
-def _inside(x: Array, joint: Joint, name: str, where: Where) -> None:
+def _inside(x: Array, joint: Joint, name: str, ticks: Clock, where: Where) -> None:
     unit = joint.position_unit
     if joint.limits is not None:
-        lower, upper = joint.limits
+        (lower, upper), largest = joint.limits, _ANGLE
         allowed = _BEYOND * (upper - lower)
-        least, most = lower - allowed, upper + allowed
         beyond, expected = f"outside of {lower:.4g} to {upper:.4g}", f"{unit} within the robot's limits"
-        other = "is this a run of another robot"
+        hint = "is this a run of another robot"
     elif unit == "rad":
-        least, most = -_TURNS, _TURNS
-        beyond, expected = "more than two turns", "rad, or limits in the robot file"
-        other = "does the joint turn on"
+        lower, upper, allowed, largest = -_TURNS, _TURNS, 0.0, np.inf
+        beyond, expected, hint = "more than two turns", "rad, or limits in the robot file", "does the joint turn on"
     else:
         return
-    bad = (x < least) | (x > most)
+    bad = (x < lower - allowed) | (x > upper + allowed)
     if bad.any():
+        turned = np.radians(x)
+        inside = turned.min() >= lower - allowed and turned.max() <= upper + allowed
+        if unit == "rad" and inside and _moved(x, bad):
+            hint = "are these degrees" if np.abs(x).max() > largest else f"are these degrees, or {hint}"
         row = int(np.argmax(bad))
         counted = f"in {bad.sum()} of {len(x)} samples, of which this is the first"
         problem = f"{name} gives joint {joint.number} {x[row]:.6g} {unit}, {beyond}, {counted}"
-        few = max(one.stop - one.start for one in in_a_row(bad)) <= IN_A_ROW
-        turned = np.radians(x)
-        if few and bad.mean() <= _FEW:
-            hint = "a wrong row may be deleted, it is a lost sample then"
-        elif few or unit != "rad" or turned.min() < least or turned.max() > most:
-            hint = f"{other}?"
-        else:
-            sure = joint.limits is not None and np.abs(x).max() > _A_TURN
-            hint = "are these degrees?" if sure else f"are these degrees, or {other}?"
+        hint = "a wrong row may be deleted, it is a lost sample then" if ticks.may_lose(bad) else f"{hint}?"
         raise InputError(where(row, name), problem, f"{expected}; {hint}")
+
+
+def _moved(x: Array, there: NDArray[np.bool_]) -> bool:
+    """Whether a position (N) moves to where it is ``there`` as it moves elsewhere, or is there most of the time: wrong
+    samples jump there.
+    """
+    steps, across = np.abs(np.diff(x)), np.diff(there)
+    usual = np.max(steps, where=~across, initial=0.0)
+    return bool(there.mean() > _MOST or np.max(steps, where=across, initial=0.0) <= _FASTER * usual)
 
 
 def _speed(x: Array, joint: Joint, name: str, period: float, where: Where) -> None:

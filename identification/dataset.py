@@ -229,7 +229,7 @@ def _check_positions(at: Measured, ticks: Clock, robot: Robot, recording: Record
     them.
     """
     q = _true_positions(at, robot, recording)
-    checks.positions(q, at, robot, ticks.period, recording.where, resting)
+    checks.positions(q, at, robot, ticks, recording.where, resting)
     for stem in ("qs", "qr"):
         if at.stem == "q" and all(f"{stem}{joint.number}" in recording.columns for joint in robot.moving):
             checks.order(q, at, measured(recording, (stem,), robot, "positions"), recording.where)

@@ -64,6 +64,11 @@ class Clock:
         result[self.sample] = False
         return result
 
+    def may_lose(self, rows: NDArray[np.bool_]) -> bool:
+        """Whether a run is read without some of its ``rows`` (M), at its ends as between others."""
+        kept = np.concatenate([[-1], self.sample[~rows], [self.sample[-1] + 1]])
+        return _few(np.diff(kept) - 1)
+
 
 def clock(recording: Recording) -> Clock:
     """The clock of a recording's rows.
@@ -135,6 +140,12 @@ def _samples(steps: Array, usual: float) -> NDArray[np.int_]:
     """How many samples each step is: more than one where a few are lost, in a recording that lost few."""
     samples: NDArray[np.int_] = np.rint(steps / usual).astype(int)
     lost = np.maximum(samples - 1, 0)
+    return np.maximum(samples, 1) if _few(lost) else np.ones_like(samples)
+
+
+def _few(lost: NDArray[np.int_]) -> bool:
+    """Whether those ``lost`` in each step are so few, of the run and in a row, that a spline stands for them; many
+    steps with lost ones are of another rate.
+    """
     slower = np.convolve(lost > 0, np.ones(_WINDOW)).max() >= _SEVERAL
-    few = lost.max() <= IN_A_ROW and lost.sum() <= _LOST * len(steps) and not slower
-    return np.maximum(samples, 1) if few else np.ones_like(samples)
+    return bool(lost.max() <= _IN_A_ROW and lost.sum() <= _LOST * len(lost) and not slower)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -160,6 +161,68 @@ def test_samples_beyond_the_limits_are_counted(limits: str, hint: str, tmp_path:
     rest = {name: np.delete(x, 700) for name, x in spoilt.columns.items()}
     (note,) = load(str(Recorded(rest).save(tmp_path / "rest.csv")), robot).notes
     assert "1 of 5000 samples are missing" in note
+
+
+@pytest.mark.parametrize(
+    ("wrong", "lost"),
+    [
+        ([700, 701, 702, 703], True),
+        ([0, 1, 4998, 4999], True),
+        ([*range(30, 5000, 60)], True),
+        ([*range(700, 705)], False),
+        ([*range(700, 1000)], False),
+        ([*range(30, 5000, 9)], False),
+        ([*range(700, 716, 2)], False),
+    ],
+    ids=["few", "ends", "often", "five", "long", "many", "every other"],
+)
+def test_rows_may_be_deleted_where_the_run_is_read_without_them(wrong: list[int], lost: bool, tmp_path: Path) -> None:
+    robot = two_links(tmp_path)
+    t, motion = fourier(robot, 10.0, 500.0)
+    columns = {"t": t, **columns_of(motion.q, motion.qd)}
+    rest = {name: np.delete(x, wrong) for name, x in columns.items()}
+    columns["q1"][wrong] = 13.5
+    hint = "; a wrong row may be deleted" if lost else r"; is this a run of another robot\?$"
+    with pytest.raises(InputError, match=hint):
+        load(str(Recorded(columns).save(tmp_path / "far.csv")), robot)
+    if lost:
+        load(str(Recorded(rest).save(tmp_path / "rest.csv")), robot)
+    else:
+        with pytest.raises(InputError, match=r"time steps by .*, expected one rate without gaps"):
+            load(str(Recorded(rest).save(tmp_path / "rest.csv")), robot)
+
+
+#: How a joint moves [deg], what it is asked where it has limits, and where it has none.
+IN_DEGREES = {
+    "small": (lambda x: 1.5 + 6.5 * x, "are these degrees", ""),
+    "far": (lambda x: 100 + 2 * x, "are these degrees", "are these degrees, or does the joint turn on"),
+    "once": (
+        lambda x: 600 * np.maximum(x - 0.95, 0),
+        "are these degrees",
+        "are these degrees, or does the joint turn on",
+    ),
+    "tiny": (lambda x: 4 * x, "are these degrees, or is this a run of another robot", ""),
+    "farther": (
+        lambda x: 200 + 2 * x,
+        "is this a run of another robot",
+        "are these degrees, or does the joint turn on",
+    ),
+    "turns": (lambda x: 800 + 2 * x, "is this a run of another robot", "does the joint turn on"),
+}
+
+
+@pytest.mark.parametrize("way", IN_DEGREES)
+def test_degrees_are_asked_for_where_a_joint_moves_beyond_its_limits(way: str, tmp_path: Path) -> None:
+    move, limited, free = IN_DEGREES[way]
+    t = np.arange(2000) / 200
+    q = np.stack([move(np.sin(0.2 * np.pi * t)), 0.3 * np.sin(t)])
+    run = Recorded({"t": t, **columns_of(q, np.cos(np.stack([t, 2 * t])))}).save(tmp_path / "run.csv")
+    for limits, hint in (("limits: [-160 deg, 160 deg]", limited), ("label: free", free)):
+        path = tmp_path / "two_links.yaml"
+        path.write_text(TWO_LINKS.replace("limits: [-160 deg, 160 deg]", limits))
+        if hint:
+            with pytest.raises(InputError, match=rf"q1 gives joint 1 .*; {re.escape(hint)}\?$"):
+                load(str(run), read(path))
 
 
 def test_the_first_of_several_jumps_is_told_though_others_are_larger(tmp_path: Path) -> None:
