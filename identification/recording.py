@@ -29,6 +29,11 @@ def left_out(file: str, words: Collection[str]) -> tuple[str, ...]:
     return (f"{file}: {listed([*words])} held no number and {are} left out",) if words else ()
 
 
+def first_word(texts: Iterable[str]) -> tuple[int, str]:
+    """Row and text of the first that says something; nothing in the first row without any."""
+    return next(((row, text.strip()) for row, text in enumerate(texts) if text.strip()), (0, ""))
+
+
 def by_count(file: str, names: Sequence[str]) -> Where:
     """The place of a value of a file without lines: row and column count as line and column."""
 

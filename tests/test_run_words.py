@@ -9,6 +9,7 @@ import numpy as np
 import pyarrow
 import pytest
 import scipy.io
+from numpy.typing import NDArray
 from pyarrow import parquet
 
 from generator.errors import InputError
@@ -120,6 +121,49 @@ def test_words_in_a_parquet_file_are_left_out_and_a_name_is_there_once(
     parquet.write_table(twice, tmp_path / "b.parquet")
     with pytest.raises(InputError, match=r"b.parquet:1:\d+: column q1 is there twice, expected each column once"):
         load(str(tmp_path / "b.parquet"), robot)
+
+
+def cells(words: list[str]) -> NDArray[np.object_]:
+    """As MATLAB has a text a sample."""
+    return np.array(words, dtype=object)[:, None]
+
+
+def test_words_in_a_mat_file_are_left_out_and_told(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    count = len(good.columns["t"])
+    words = {"mode": cells(["AUT"] * count), "day": np.array(["Monday"] * count), "by": "Ann", "size": cells(["1 m"])}
+    scipy.io.savemat(tmp_path / "a.mat", {**good.columns, **words})
+    run = load(str(tmp_path / "a.mat"), robot)
+    assert np.allclose(run.q, stacked(good, "q"), atol=1e-12)
+    assert [note.partition(": ")[2] for note in run.notes] == ["mode and day held no number and are left out"]
+    scipy.io.savemat(tmp_path / "b.mat", {**good.columns, "q1": words["mode"]})
+    with pytest.raises(InputError, match=r"there is no column q1, expected .*; q1 held no number and is left out"):
+        load(str(tmp_path / "b.mat"), robot)
+    (tmp_path / "c.yaml").write_text("columns: {t: clock / 1000}\n")
+    scipy.io.savemat(tmp_path / "c.mat", {**good.without("t").columns, "clock": cells(["", *["12:03"] * (count - 1)])})
+    with pytest.raises(InputError, match=r"c.mat:2:5: clock holds no number in any row, the first is '12:03', exp"):
+        load(str(tmp_path / "c.mat"), robot)
+
+
+@pytest.mark.parametrize("ending", ["parquet", "mat"])
+def test_a_file_of_words_alone_is_told_so(ending: str, good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    path = tmp_path / f"a.{ending}"
+    columns = {name: ["", "s", *map(str, values)] for name, values in good.columns.items()}
+    if ending == "mat":
+        scipy.io.savemat(path, {name: cells(words) for name, words in columns.items()})
+    else:
+        parquet.write_table(pyarrow.table(columns), path)
+    told = rf"a.{ending}:2:1: t is the text 's', expected a column of numbers that are no text, without a row of units$"
+    with pytest.raises(InputError, match=told):
+        load(str(path), robot)
+
+
+def test_a_formula_over_words_tells_the_first_of_a_parquet_file(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    count = len(good.columns["t"])
+    table = pyarrow.table({**good.without("t").columns, "clock": [None, *["12:03"] * (count - 1)]})
+    parquet.write_table(table, tmp_path / "a.parquet")
+    (tmp_path / "a.yaml").write_text("columns: {t: clock / 1000}\n")
+    with pytest.raises(InputError, match=r"a.parquet:2:5: clock holds no number in any row, the first is '12:03', exp"):
+        load(str(tmp_path / "a.parquet"), robot)
 
 
 def test_vectors_of_a_mat_file_are_those_of_the_only_joint(tmp_path: Path) -> None:

@@ -10,6 +10,8 @@ from generator.discovery import modules
 from generator.errors import InputError, Place
 from identification.recording import Recording
 
+_NUMBERS = "a column of numbers that are no text, without a row of units"
+
 
 def read(path: Path) -> Recording:
     """The columns of a run file.
@@ -29,6 +31,9 @@ def read(path: Path) -> Recording:
         recording: Recording = reader.read(path)
     except OSError as error:
         raise InputError(Place(file), f"cannot read the file ({error.strerror or error})", expected) from None
+    if not recording.columns:
+        for name, (row, word) in recording.words.items():
+            raise InputError(recording.where(row, name), f"{name} is the text {word!r}", _NUMBERS)
     if not recording.rows:
         raise InputError(Place(file), "there are no samples in the file", "a header and a row of numbers a sample")
     return recording

@@ -9,7 +9,7 @@ import numpy as np
 from generator.errors import InputError, Place
 from identification.arrays import Array
 from identification.extras import needing
-from identification.recording import Recording, by_count, digest, left_out
+from identification.recording import Recording, by_count, digest, first_word, left_out
 
 EXTENSIONS = (".parquet",)
 
@@ -40,5 +40,9 @@ def read(path: Path) -> Recording:
         elif types.is_duration(column.type):
             spans = column.to_numpy()
             columns[name] = np.where(np.isnat(spans), np.nan, spans / np.timedelta64(1, "s"))
-    words = {name: (0, str(table.column(name)[0])) for name in names if name not in columns and table.num_rows}
+    words = {
+        name: first_word(str(one) if one.is_valid else "" for one in table.column(name))
+        for name in names
+        if name not in columns and table.num_rows
+    }
     return Recording(file, columns, digest(path), by_count(file, names), left_out(file, words), words)
