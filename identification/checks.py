@@ -11,7 +11,7 @@ from scipy.optimize import linear_sum_assignment
 from generator.errors import InputError
 from generator.robot.description import PRISMATIC, Joint, Robot
 from identification.arrays import Array
-from identification.neighbours import ARITHMETIC, at_extremes, in_a_row
+from identification.neighbours import ARITHMETIC, at_extremes
 from identification.recording import A_PART, Where
 from identification.signals import Measured
 from identification.timing import Clock

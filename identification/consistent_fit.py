@@ -19,7 +19,7 @@ from generator.robot.parameters import INERTIAL_STEMS
 from generator.symbolic.pseudo_inertia import of_body, uniform_bar
 from identification.arrays import Array
 from identification.inverse_model import Identification
-from identification.left_open import LeftOpen, left_open, settled, told
+from identification.left_open import LeftOpen, columns_of_standard, left_open, settled, told
 from identification.residuals import Residuals, residuals
 from identification.sidecar import Payload
 
@@ -95,8 +95,9 @@ def consistent_fit(found: Identification, prior: Mapping[str, float] | None, wei
     for body in bodies:
         _raise_to_possible(body, {name: one for name, one in s.items() if name not in found.problem.fixed}, s)
     standard = {name: float(variable.value) for name, variable in s.items()}
-    open_ = left_open(model, found.problem.names, R)
-    for name, value in settled(model, found.problem.names, R, open_, standard, prior or {}).items():
+    columns = columns_of_standard(model, found.problem.names, R)
+    open_ = left_open(model, found.problem.names, columns)
+    for name, value in settled(model, columns, open_, standard, prior or {}).items():
         standard[name] = s[name].value = value
     at = dict(found.problem.fixed) | {name: float(one.value) for name, one in values.items()}
     train = residuals([f for run in found.train for f in run.factors], at)

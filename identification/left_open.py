@@ -37,11 +37,24 @@ class LeftOpen:
         return frozenset((*self.unseen, *self.shared))
 
 
-def left_open(model: Model, names: Sequence[str], R: Array) -> LeftOpen:
-    """What rows ``R`` (r x p) of the estimated base parameters ``names`` (p) leave open; what is a part of a base
-    parameter that was given instead is not.
+def columns_of_standard(model: Model, names: Sequence[str], R: Array) -> dict[str, Array]:
+    """Columns (r) of the standard parameters, by name, in rows ``R`` (r x p) of the estimated base parameters ``names``
+    (p); those zero that are but rounding.
     """
-    columns, given = _columns(model, names, R), _given(model, names)
+    place = {name: k for k, name in enumerate(names)}
+    columns: dict[str, Array] = {}
+    for base, terms in model.grouping.numeric().items():
+        for name, coefficient in terms.items() if base in place else ():
+            columns[name] = columns.get(name, np.zeros(len(R))) + coefficient * R[:, place[base]]
+    unexcited = silent(np.array([np.linalg.norm(column) for column in columns.values()]))
+    return {name: 0.0 * one if out else one for (name, one), out in zip(columns.items(), unexcited, strict=True)}
+
+
+def left_open(model: Model, names: Sequence[str], columns: Mapping[str, Array]) -> LeftOpen:
+    """What rows leave open, by the ``columns_of_standard`` parameters in them; what is a part of a base parameter that
+    was given, and is none of the estimated ``names``, is not.
+    """
+    given = _given(model, names)
     effects = names_of_effects(model.robot)
     free = [p.name for p in model.standard_parameters if p.name in effects and p.name not in given]
     zero = {name for name, column in columns.items() if not column.any()}
@@ -61,16 +74,14 @@ def left_open(model: Model, names: Sequence[str], R: Array) -> LeftOpen:
 
 def settled(
     model: Model,
-    names: Sequence[str],
-    R: Array,
+    columns: Mapping[str, Array],
     open_: LeftOpen,
     found: Mapping[str, float],
     prior: Mapping[str, float],
 ) -> dict[str, float]:
-    """Effects' parameters that rows ``R`` (r x p) of the base parameters ``names`` (p) leave ``open_``, by name: the
+    """Effects' parameters that rows leave ``open_``, by name, with the ``columns_of_standard`` parameters in them: the
     values nearest to the ``prior``, or to zero, within their bounds, that make the same torques as those ``found``.
     """
-    columns = _columns(model, names, R)
     lower, upper = (
         {p.name: none if bound is None else bound for p in model.standard_parameters for bound in [getattr(p, end)]}
         for end, none in (("lower", -np.inf), ("upper", np.inf))
@@ -104,17 +115,6 @@ def told(open_: LeftOpen, values: Mapping[str, float], prior: bool) -> list[str]
         like = "from the prior" if prior else "as a ball"
         notes.append(f"the physically consistent set has {some} {like}: no motion in the data shows them")
     return notes
-
-
-def _columns(model: Model, names: Sequence[str], R: Array) -> dict[str, Array]:
-    """Columns (r) of the standard parameters in rows ``R`` of base parameters; those zero that are but rounding."""
-    place = {name: k for k, name in enumerate(names)}
-    columns: dict[str, Array] = {}
-    for base, terms in model.grouping.numeric().items():
-        for name, coefficient in terms.items() if base in place else ():
-            columns[name] = columns.get(name, np.zeros(len(R))) + coefficient * R[:, place[base]]
-    unexcited = silent(np.array([np.linalg.norm(column) for column in columns.values()]))
-    return {name: 0.0 * one if out else one for (name, one), out in zip(columns.items(), unexcited, strict=True)}
 
 
 def _given(model: Model, names: Sequence[str]) -> set[str]:

@@ -19,7 +19,7 @@ _EVEN, _GAP = 0.02, 0.5
 #: its times that is left without it.
 _OFF, _SMOOTHER = 0.4, 0.8
 #: Samples in a row that a spline stands for, and the part of a run that may be lost.
-IN_A_ROW, _LOST = 4, 0.1
+_IN_A_ROW, _LOST = 4, 0.1
 #: Steps in a row of which this many are of several samples at another rate: single ones that are lost come as close by
 #: chance hardly ever.
 _WINDOW, _SEVERAL = 8, 7

@@ -13,7 +13,7 @@ from generator.symbolic.pseudo_inertia import of_body, uniform_bar
 from identification.consistency import grouped
 from identification.consistent_fit import ConsistentFit, consistent_fit, doubts
 from identification.inverse_model import Identification, Options, identify
-from identification.left_open import left_open, told
+from identification.left_open import columns_of_standard, left_open, told
 from identification.observation import Motion, Regressors
 from identification.recipes import Recipe
 from identification.results import CONSISTENT, document, parameter_sets
@@ -208,9 +208,10 @@ def test_what_only_sums_show_is_the_smallest_that_makes_them(
 
 def test_a_body_of_which_nothing_shows_is_told() -> None:
     of = regressors("emps")
-    dark = left_open(of.model, of.names, np.zeros((3, len(of.names))))
-    assert dark.bodies == (1,)
-    assert set(dark.unseen) == {"Fv1", "Fc1", "Off1"}
-    assert told(dark, dict.fromkeys(dark.unseen, 0.0), prior=False)[-1].startswith(
+    columns = columns_of_standard(of.model, of.names, np.zeros((3, len(of.names))))
+    all_open = left_open(of.model, of.names, columns)
+    assert all_open.bodies == (1,)
+    assert set(all_open.unseen) == {"Fv1", "Fc1", "Off1"}
+    assert told(all_open, dict.fromkeys(all_open.unseen, 0.0), prior=False)[-1].startswith(
         "the physically consistent set has body 1 as a ball: no "
     )

@@ -228,7 +228,7 @@ BAD: dict[str, tuple[Callable[[Recorded], Recorded], str]] = {
     "few degrees": (few_degrees, r"q1 gives joint 1 .*; are these degrees, or is this a run of another robot\?"),
     "five rows in a row": (
         lambda r: put(r, "q1", slice(700, 705), 3.5),
-        r":702:\d+: q1 gives joint 1 3.5 rad, .* in 5 of \d+ samples, .*; are these degrees, or is this a run of",
+        r":702:\d+: q1 gives joint 1 3.5 rad, .* in 5 of \d+ samples, .*; is this a run of another",
     ),
     "another pose": (shifted, r"q2 gives joint 2 [\d.]+ rad, outside of .* is this a run of another robot\?"),
     "swapped": (exchanged, r"q1 follows qr2, not qr1, expected columns in the joints' order; are two swapped\?"),
