@@ -29,6 +29,12 @@ def left_out(file: str, words: Collection[str]) -> tuple[str, ...]:
     return (f"{file}: {listed([*words])} held no number and {are} left out",) if words else ()
 
 
+def read_as_seconds(file: str, clocks: Collection[str]) -> tuple[str, ...]:
+    """What is to be told of columns of a file that hold times of day; nothing without any."""
+    hold = "holds" if len(clocks) == 1 else "hold"
+    return (f"{file}: {listed([*clocks])} {hold} times of day, read as s from the first row",) if clocks else ()
+
+
 def first_word(texts: Iterable[str]) -> tuple[int, str]:
     """Row and text of the first that says something; nothing in the first row without any."""
     return next(((row, text.strip()) for row, text in enumerate(texts) if text.strip()), (0, ""))

@@ -18,7 +18,8 @@ import numpy as np
 from generator.errors import InputError, Place
 from generator.robot.readers import undecodable
 from identification.arrays import Array
-from identification.recording import Recording, digest, left_out
+from identification.clock_times import is_clock_time, seconds
+from identification.recording import Recording, digest, left_out, read_as_seconds
 from identification.text_form import Form, decimal_mark, encoding_of, form, other_marks, split
 
 EXTENSIONS = (".csv", ".tsv", ".txt")
@@ -70,6 +71,7 @@ def read(path: Path) -> Recording:
         return Recording(file, {name: np.empty(0) for name in form.names}, digest(path), layout.place, notes)
     names: Sequence[str] = form.names
     words: Mapping[str, tuple[int, str]] = {}
+    clocks: dict[str, Array] = {}
     try:
         values = _numbers(form, rows)
     except ValueError as error:
@@ -77,16 +79,18 @@ def read(path: Path) -> Recording:
         names = [name for name in form.names if name not in words]
         if not words or not names:
             _find_fault(layout, rows, str(error))
-        notes = (*notes, *left_out(file, words))
+        clocks = {name: _times(form, rows, name) for name, (_, first) in words.items() if is_clock_time(first)}
+        words = {name: first for name, first in words.items() if name not in clocks}
+        notes = (*notes, *read_as_seconds(file, clocks), *left_out(file, words))
         try:
             values = _numbers(form, rows, [form.names.index(name) for name in names])
         except ValueError as other:
-            _find_fault(layout, rows, str(other), words)
+            _find_fault(layout, rows, str(other), {*words, *clocks})
     if len(values) != rows:
         _find_fault(layout, rows, "a line is empty")
     if values.shape[1] != len(names):
         _find_fault(layout, rows, f"{values.shape[1]} fields a row, {len(names)} names")
-    columns: dict[str, Array] = dict(zip(names, np.ascontiguousarray(values.T), strict=True))
+    columns: dict[str, Array] = dict(zip(names, np.ascontiguousarray(values.T), strict=True)) | clocks
     return Recording(file, columns, digest(path), layout.place, notes, words)
 
 
@@ -101,6 +105,12 @@ def _numbers(form: Form, rows: int, columns: Sequence[int] | None = None) -> Arr
         dtype=float,
         usecols=columns,
     )
+
+
+def _times(form: Form, rows: int, name: str) -> Array:
+    """A column (N) of times of day in s."""
+    k = form.names.index(name)
+    return seconds(split(text, form.separator)[k] for text in islice(form.lines(), rows))
 
 
 def _of_words(form: Form, rows: int) -> dict[str, tuple[int, str]]:
