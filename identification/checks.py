@@ -22,8 +22,8 @@ _BEYOND = 0.05
 _TURNS, _FAST, _JUMP = 4 * np.pi, 40.0, 100.0
 #: Part of a run's samples beyond which those outside are no wrong ones.
 _MOST = 0.5
-#: Size [rad] up to which a number may be a joint's angle, though it is beyond this one's limits.
-_ANGLE = 2 * np.pi
+#: Sizes [rad, m] up to which a number may be a joint's position, though it is beyond this one's limits.
+_ANGLE, _LENGTH = 2 * np.pi, 10.0
 #: Size of a number in whatever unit that is none of a sensor.
 _HUGE = 1e30
 #: Steps of an encoder at once within a sample from which a motion is abrupt.
@@ -95,7 +95,7 @@ def positions(q: Array, found: Measured, robot: Robot, ticks: Clock, where: Wher
 def _inside(x: Array, joint: Joint, name: str, ticks: Clock, where: Where) -> None:
     unit = joint.position_unit
     if joint.limits is not None:
-        (lower, upper), largest = joint.limits, _ANGLE
+        (lower, upper), largest = joint.limits, _ANGLE if unit == "rad" else _LENGTH
         allowed = _BEYOND * (upper - lower)
         beyond, expected = f"outside of {lower:.4g} to {upper:.4g}", f"{unit} within the robot's limits"
         hint = "is this a run of another robot"
@@ -106,10 +106,10 @@ def _inside(x: Array, joint: Joint, name: str, ticks: Clock, where: Where) -> No
         return
     bad = (x < lower - allowed) | (x > upper + allowed)
     if bad.any():
-        turned = np.radians(x)
-        inside = turned.min() >= lower - allowed and turned.max() <= upper + allowed
-        if unit == "rad" and inside and _moved(x, bad):
-            hint = "are these degrees" if np.abs(x).max() > largest else f"are these degrees, or {hint}"
+        other, others = (np.radians(x), "degrees") if unit == "rad" else (x / 1000, "millimetres")
+        inside = other.min() >= lower - allowed and other.max() <= upper + allowed
+        if inside and _moved(x, bad):
+            hint = f"are these {others}" if np.abs(x).max() > largest else f"are these {others}, or {hint}"
         row = int(np.argmax(bad))
         counted = f"in {bad.sum()} of {len(x)} samples, of which this is the first"
         problem = f"{name} gives joint {joint.number} {x[row]:.6g} {unit}, {beyond}, {counted}"

@@ -229,7 +229,10 @@ def _check_known(loaded: Sequence[Run], stds: Mapping[str, float]) -> None:
         assert run.payload is not None
         for stem, std in stds.items():
             if stem not in run.payload.known:
-                raise InputError(run.place, f"{stem} of payload {run.payload.name} is not known", "a value for its std")
+                problem = f"{stem} of payload {run.payload.name} is not known"
+                raise InputError(
+                    command_line("--payload-std"), problem, f"a value {stem}=VALUE of which this is the std"
+                )
             if not std <= (most := abs(run.payload.known[stem]) or _LARGEST):
                 raise InputError(command_line("--payload-std"), f"{stem}={std:g}", f"{most:g} at most")
 
@@ -304,8 +307,9 @@ def _observable(
     if too_loose:
         problem = f"no drive gain of {robot.name} can be told: what is known of the payload is not exact enough"
         raise InputError(command_line("--payload-std"), problem, f"one gain within {100 * LIMIT:g} % at least")
-    problem = f"no drive gain of {robot.name} can be told: what is known of the payload shows in no torque"
-    raise InputError(first.place, problem, "a payload that moves against gravity, and its mass or first moments")
+    problem = f"no drive gain of {robot.name} can be told: the currents do not show what is known of the payload"
+    expected = "loaded runs on which it is mounted and moves against gravity, and its mass or first moments"
+    raise InputError(first.place, problem, expected)
 
 
 def _relative(fit: Fit, more: Array) -> Array:

@@ -21,11 +21,14 @@ from identification.set_values import told
 BODIES = "bodies"
 
 
-def fixed(requests: Sequence[str], prior: ParameterSet | None, model: Model, place: Place) -> dict[str, float]:
+def fixed(
+    requests: Sequence[str], prior: ParameterSet | None, model: Model, place: Place, option: str = ""
+) -> dict[str, float]:
     """Values by name for ``NAME=VALUE`` [SI], ``NAME``, a pattern such as ``Fv*``, or ``bodies``.
 
-    What has no value of its own takes that of ``prior``. Raises InputError for a name that the robot does not have, for
-    one given twice, for a name without value where there is no prior, and for one of which the prior tells nothing.
+    What has no value of its own takes that of ``prior``, which an ``option`` of the command names if it has one. Raises
+    InputError for a name that the robot does not have, for one given twice, for a name without value where there is no
+    prior, and for one of which the prior tells nothing.
     """
     given_once(requests, place)
     names = [parameter.name for parameter in model.base_parameters]
@@ -43,7 +46,9 @@ def fixed(requests: Sequence[str], prior: ParameterSet | None, model: Model, pla
             if equals:
                 result[name] = float(expressions.parse_number(value, place))
             elif prior is None:
-                raise InputError(place, f"{name} has no value", f"{name}=VALUE, or a set of values to take it from")
+                raise InputError(
+                    place, f"{name} has no value", f"{name}=VALUE{option and f', or {option} to take it from'}"
+                )
             elif name not in known:
                 problem = f"the set {prior.name} does not tell {name}"
                 raise InputError(place, problem, f"{name}=VALUE, or a set of values that has it")

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from generator.command_line import command_line
 from generator.effects.library import effects_of
 from generator.errors import InputError, Place
 from generator.robot.description import PRISMATIC, Joint, Robot
@@ -120,7 +121,7 @@ def _joint(robot: Robot, number: int) -> tuple[int, Joint]:
         if joint.number == number:
             return k, joint
     known = ", ".join(str(joint.number) for joint in robot.moving)
-    raise InputError(robot.place, f"{robot.name} has no moving joint {number}", known)
+    raise InputError(command_line("--locked"), f"{robot.name} has no moving joint {number}", known)
 
 
 def _check_shown(place: Place, number: int, full: Mapping[str, Value], kept: Mapping[str, Value]) -> None:

@@ -109,6 +109,8 @@ def _entry(one: Any, name: str, place: Place) -> Known:
     value, std = (_number(entry.get(key), name, place) for key in ("value", "std"))
     if std is not None and not std >= 0:
         raise InputError(place, f"{name} has the std {std:g}", "a number from 0, or null where it is not known")
+    # What was given is not known exactly: its std of zero is that of the fit alone.
+    std = None if entry.get("fixed") is True else std
     unit = str(entry.get("unit", ""))
     return Known(None, None, unit) if value is None or not math.isfinite(value) else Known(value, std, unit)
 

@@ -33,7 +33,8 @@ class RunSource:
     def of(cls, name: str) -> RunSource:
         """A path, or ``PATH@FROM:TO`` with times in s, either of which may be left out.
 
-        Raises InputError where one of the times of a file that is there is no number.
+        Raises InputError where one of the times of a file that is there is no number, and where the end is before the
+        start.
         """
         match = None if os.path.exists(name) else _PART.match(name)
         if match is None:
@@ -48,6 +49,9 @@ class RunSource:
         if np.isnan(start) or np.isnan(end):
             expected = "FILE@FROM:TO with times in s, decimals after a point"
             raise InputError(Place(name), "this is no part of a run", expected)
+        if start > end:
+            problem = f"the part would end at {end:g} s, before it begins at {start:g} s"
+            raise InputError(Place(name), problem, "FILE@FROM:TO with times in s, FROM before TO")
         return cls(name, Path(match["path"]), start, end)
 
     @property

@@ -121,6 +121,9 @@ def _payload(entry: Entry) -> Payload | None:
     """None for the text ``none``; stems that are not given, or are ``unknown``, are sought."""
     if isinstance(entry.value, Text) and entry.value.content == "none":
         return None
+    if not isinstance(entry.value, Table):
+        expected = "none, or a table such as {M: 150 kg}, of which what is not told is unknown"
+        raise InputError(entry.value.place, "payload is no table", expected)
     keys = fields.table(entry.value, "payload", (), ("name", *UNITS))
     name = _UNNAMED
     if "name" in keys:
@@ -166,7 +169,9 @@ def given(words: Sequence[str], place: Place) -> Payload:
         elif stem in UNITS:
             known[stem] = _possible(stem, float(expressions.parse_number(value, place)), place)
         else:
-            raise InputError(place, f"payload value {word!r}", f"NAME=VALUE with one of {', '.join(UNITS)}")
+            raise InputError(
+                place, f"payload value {word!r}", f"NAME=VALUE with one of {', '.join(UNITS)}, or name=LETTERS"
+            )
     return Payload(name, known)
 
 
@@ -178,7 +183,7 @@ def by_name(carried: Iterable[tuple[Place, Payload | None]]) -> dict[str, Payloa
     result: dict[str, Payload] = {}
     for place, payload in carried:
         if payload is not None and result.setdefault(payload.name, payload).known != payload.known:
-            raise InputError(place, f"payload {payload.name} has other values here", "one payload of a name")
+            raise InputError(place, f"payload {payload.name} has other values here", "another name for another payload")
     return result
 
 

@@ -88,6 +88,18 @@ def test_results_beside_a_parameter_set(tmp_path: Path, capsys: pytest.CaptureFi
     assert len(contents["data"]["b"]["sha256"]) == 64
 
 
+def test_what_was_given_is_not_known_exactly(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = written(tmp_path, ZZ1R=7220.15, Fv1=1.0)
+    results = json.loads(path.read_text())
+    results["parameters"]["Fv1"] |= {"std": 0.0, "fixed": True}
+    path.write_text(json.dumps(results))
+    done = command("compare", path, path, "--out", tmp_path / "c", capsys=capsys)
+    assert done.status == 0
+    contents = json.loads((tmp_path / "c" / "comparison.json").read_text())["parameters"]
+    assert [contents["Fv1"]["a"][key] for key in ("value", "std")] == [1.0, None]
+    assert [contents[name]["agrees"] for name in ("Fv1", "ZZ1R")] == [None, True]
+
+
 @pytest.mark.parametrize(
     ("b", "error"),
     [

@@ -164,14 +164,21 @@ def test_runs_that_show_no_gain_are_refused(
         ((a, b, "M=0"), "b.csv:1:1: nothing is known of payload L, expected its mass or first moments"),
         ((f"{a}@0:1", b, "M=20"), "expected at least"),
         ((a, b, "K=20"), "error: --payload:1:1: payload value 'K=20'"),
-        ((a, b, "XZ=0.001"), "no drive gain of lifter can be told: what is known of the payload shows in no torque"),
+        (
+            (a, b, "XZ=0.001"),
+            "no drive gain of lifter can be told: the currents do not show what is known of the payload",
+        ),
+        (
+            (f"{a}@0:5", f"{a}@5.01:10", "M=20"),
+            "told: the currents do not show what is known of the payload, expected loaded runs",
+        ),
     ]
     for (empty, loaded, *payload), error in cases:
         words = ["--empty", empty, "--loaded", loaded, *(["--payload", *payload] if payload else [])]
         done = command("gains", robot, *words, "--out", tmp_path / "out", capsys=capsys)
         assert (done.status, error in done.err) == (2, True), done.err
     for std, error in (
-        ("MX=1", "b.csv:1:1: MX of payload L is not known, expected a value for its std"),
+        ("MX=1", "--payload-std:1:1: MX of payload L is not known, expected a value MX=VALUE of which this is the std"),
         ("M=1e200", "error: --payload-std:1:1: M=1e+200, expected 20 at most"),
         ("MY=1e200", "error: --payload-std:1:1: MY=1e+200, expected 1e+12 at most"),
         ("name=L", "error: --payload-std:1:1: payload value 'name=L', expected NAME=VALUE of a known value"),
@@ -201,7 +208,7 @@ def test_one_payload_with_two_values_is_refused(arm: Regressors, tmp_path: Path)
     runs = [saved(tmp_path / f"{s}.csv", *currents(arm, s, s > 0), 0.02, s) for s in range(3)]
     for path, mass in zip(runs[1:], (20, 21), strict=True):
         Path(path).with_suffix(".yaml").write_text(f"payload: {{M: {mass} kg}}\n")
-    told = f"{runs[2]}:1:1: payload L has other values here, expected one payload of a name"
+    told = f"{runs[2]}:1:1: payload L has other values here, expected another name for another payload"
     with pytest.raises(InputError, match=f"^{re.escape(told)}$"):
         drive_gains(arm.model.robot, runs[:1], runs[1:], regressors=arm)
 

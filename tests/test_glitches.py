@@ -15,7 +15,7 @@ from generator.robot.readers import read
 from identification.dataset import load
 from identification.glitches import glitches
 from identification.observation import Regressors
-from tests.recorded import TRUTH, TWO_LINKS, Recorded, fourier
+from tests.recorded import SLIDE, TRUTH, TWO_LINKS, Recorded, fourier
 
 Array = NDArray[np.float64]
 
@@ -223,6 +223,16 @@ def test_degrees_are_asked_for_where_a_joint_moves_beyond_its_limits(way: str, t
         if hint:
             with pytest.raises(InputError, match=rf"q1 gives joint 1 .*; {re.escape(hint)}\?$"):
                 load(str(run), read(path))
+
+
+def test_millimetres_are_asked_for_where_a_slide_is_beyond_its_limits(tmp_path: Path) -> None:
+    path = tmp_path / "slide.yaml"
+    path.write_text(SLIDE.replace("r: q1}", "r: q1, limits: [0 m, 0.21 m]}"))
+    t = np.arange(2000) / 200
+    for way, hint in ((105 + 90 * np.sin(t), "are these millimetres"), (1.5 + np.sin(t), "is this a run of another")):
+        run = Recorded({"t": t, "q1": way, "tau1": np.cos(t)}).save(tmp_path / "run.csv")
+        with pytest.raises(InputError, match=f"q1 gives joint 1 .* m, outside of .*{hint}"):
+            load(str(run), read(path))
 
 
 def test_the_first_of_several_jumps_is_told_though_others_are_larger(tmp_path: Path) -> None:

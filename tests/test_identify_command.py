@@ -215,7 +215,7 @@ REFUSED = {
     ("--fix", "Fv9=1"): "error: --fix:1:1: the robot has no base parameter 'Fv9', expected perhaps 'Fv2'",
     ("--fix", "Fv1=1", "ZZ1=1"): "error: --fix:1:1: ZZ1 is grouped: the runs show it only in ZZ1R, expected ZZ1R",
     ("--fix", "M1=1"): "error: --fix:1:1: M1 acts in no torque, expected a base parameter",
-    ("--fix", "Fv1"): "error: --fix:1:1: Fv1 has no value, expected Fv1=VALUE, or a set of values to take it from",
+    ("--fix", "Fv1"): "error: --fix:1:1: Fv1 has no value, expected Fv1=VALUE, or --prior SET to take it from",
     ("--fix", "Fc1=1", "Fc1=2"): "error: --fix:1:1: Fc1 is given twice, expected it once",
     ("--payload", "M=1", "M=2"): "error: --payload:1:1: M is given twice, expected it once",
     ("--fix", "Fv1=1", "Fv*=2"): "error: --fix:1:1: Fv1 is given twice, expected it once",

@@ -70,7 +70,7 @@ def test_a_payload_that_all_sidecars_contradict_is_refused(links: Regressors, tm
 def test_one_payload_with_two_values_is_refused(links: Regressors, tmp_path: Path) -> None:
     """In the same words, whatever is sought, at the run that comes later."""
     runs = [carrying(links, mass, tmp_path / f"{mass}.csv", known("L", mass)) for mass in (0.5, 2.5)]
-    told = f"{runs[1]}:1:1: payload L has other values here, expected one payload of a name"
+    told = f"{runs[1]}:1:1: payload L has other values here, expected another name for another payload"
     with pytest.raises(InputError, match=f"^{re.escape(told)}$"):
         identify(links.model.robot, runs, options=Options(PLAIN), regressors=links)
 
@@ -139,3 +139,11 @@ def test_gains_are_not_found_from_runs_in_the_wrong_places(links: Regressors, tm
         drive_gains(robot, [loaded], [loaded], regressors=links)
     with pytest.raises(InputError, match=r"empty.csv:1:1: no payload is on a run that counts as loaded"):
         drive_gains(robot, [empty], [empty], Payload("L", {"M": 2.5}), regressors=links)
+
+
+@pytest.mark.parametrize("word", ["None", "", "150 kg", "[1, 2]"])
+def test_a_payload_is_a_table_or_none(word: str, links: Regressors, tmp_path: Path) -> None:
+    run = carrying(links, 0.0, tmp_path / "a.csv", f"payload: {word}\n")
+    told = "a.yaml:1:.*: payload is no table, expected none, or a table such as {M: 150 kg}, of which"
+    with pytest.raises(InputError, match=told):
+        identify(links.model.robot, [run], options=Options(PLAIN), regressors=links)

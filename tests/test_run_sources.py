@@ -29,6 +29,10 @@ def test_a_part_of_a_run(good: Recorded, robot: Robot, tmp_path: Path) -> None:
         told = "this is no part of a run, expected FILE@FROM:TO with times in s, decimals after a point"
         with pytest.raises(InputError, match=f"a.csv{part}:1:1: {told}"):
             load(f"{path}{part}", robot)
+    with pytest.raises(
+        InputError, match=r"a.csv@5:2:1:1: the part would end at 2 s, before it begins at 5 s, expected FI"
+    ):
+        load(f"{path}@5:2", robot)
     with pytest.raises(InputError, match=r"a run file ending in"):
         load(f"{tmp_path / 'none.csv'}@a:b", robot)
 

@@ -165,7 +165,7 @@ def _options(arguments: argparse.Namespace, regressors: Regressors) -> Options:
     )
     return Options(
         recipe=_recipe(arguments, regressors),
-        fixed=fixed(arguments.fix, prior, model, command_line("--fix")),
+        fixed=fixed(arguments.fix, prior, model, command_line("--fix"), "--prior SET"),
         robust=arguments.robust,
         draws=0 if arguments.bootstrap is None else whole_number(arguments.bootstrap, "--bootstrap", 50, 100_000),
         payload=None if arguments.payload is None else given(arguments.payload, command_line("--payload")),

@@ -157,7 +157,7 @@ def run(arguments: argparse.Namespace) -> None:
     with needing(command_line("counterpoise simulate")):
         from identification.simulation.checks import check, timed
         from identification.simulation.machine import compiled
-        from identification.simulation.run_file import files_of, save
+        from identification.simulation.run_file import files_of, free, save
         from identification.simulation.simulate import simulate
 
     settings = _settings(arguments)
@@ -172,6 +172,7 @@ def run(arguments: argparse.Namespace) -> None:
     settings = timed(settings)
     check(settings, robot)
     writable(out.parent)
+    free(out)
     with contextlib.ExitStack() as stack:
         with stage(f"compiling the simulation of {robot.name}"):
             machine = stack.enter_context(compiled(robot))

@@ -24,6 +24,8 @@ from identification.trajectory import Trajectory, Unplanned, Value, ends_of
 _MOST = 10**8
 #: Largest size, in SI, of what is added to a log, and shortest time of a warm-up [s]: beyond, numbers overflow.
 _LARGEST, _SHORTEST = 1e12, 1e-9
+#: Part by which a number may be off a whole one, as rounding makes it.
+_WHOLE = 1e-9
 
 
 def each(values: Sequence[float], n: int, option: str) -> Array:
@@ -113,9 +115,14 @@ def _check_rates(settings: Settings) -> None:
         )
     if settings.log_rate is not None:
         ratio = settings.rate / settings.log_rate if settings.log_rate > 0 else 0.0
-        if ratio < 1 or abs(ratio - round(ratio)) > 1e-9 * ratio:
+        if ratio < 1 or abs(ratio - round(ratio)) > _WHOLE * ratio:
             whole = f"--rate, {settings.rate:g} Hz, divided by a whole number"
             raise InputError(command_line("--log-rate"), f"{settings.log_rate:g}", whole)
+    for option, delay in (("--delay", settings.delay), ("--link-delay", settings.link_delay)):
+        samples = delay * settings.rate
+        if abs(samples - round(samples)) > _WHOLE * max(samples, 1.0):
+            problem = f"{delay:g} s, {samples:.6g} samples"
+            raise InputError(command_line(option), problem, f"a whole number of samples of {1 / settings.rate:g} s")
 
 
 def _check_robot(settings: Settings, robot: Robot) -> None:
@@ -166,5 +173,5 @@ def pose(settings: Settings, robot: Robot) -> Array:
     for joint, value, (lower, upper) in zip(moving, settings.pose, ends, strict=True):
         if not lower < value < upper:
             problem = f"joint {joint.number} at {value:g}"
-            raise InputError(command_line("--pose"), problem, f"a position from {lower:.4g} to {upper:.4g}")
+            raise InputError(command_line("--pose"), problem, f"a position between {lower:.4g} and {upper:.4g}")
     return np.array(settings.pose, dtype=float)

@@ -27,15 +27,20 @@ def files_of(path: Path) -> tuple[Path, Path]:
     return path, sidecar.path_of(path)
 
 
+def free(path: Path) -> tuple[Path, Path]:
+    """The files of a run that is saved as ``path``; raises InputError where one of them is a folder."""
+    for file in files_of(path):
+        if os.path.isdir(file):
+            raise InputError(Place(str(file)), "it is a folder", "a file that can be written")
+    return files_of(path)
+
+
 def save(run: Simulated, robot: str, digest: str, path: Path) -> tuple[Path, Path]:
     """Writes the run's columns to ``path`` and the sidecar beside it, both or none; returns both paths.
 
     Raises InputError where they cannot be written.
     """
-    files = files_of(path)
-    for file in files:
-        if os.path.isdir(file):
-            raise InputError(Place(str(file)), "it is a folder", "a file that can be written")
+    files = free(path)
     values = np.stack(list(run.columns.values()), axis=1)
     row = ",".join([f"%.{_DIGITS}g"] * values.shape[1])
     rows = [",".join(run.columns), *(row % tuple(one) for one in values.tolist())]
