@@ -38,9 +38,10 @@ def compiler() -> list[str]:
 def run(command: Sequence[str]) -> Done:
     """Runs a command. Raises InputError where there is no such program."""
     try:
-        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
     except FileNotFoundError:
         raise InputError(Place(command[0]), "there is no such program", "a C compiler; set CC") from None
     except OSError as error:
         raise InputError(Place(command[0]), f"it cannot be run ({error.strerror})", "a C compiler; set CC") from None
-    return Done(done.returncode, done.stdout)
+    # A compiler speaks in whatever encoding its locale has.
+    return Done(done.returncode, done.stdout.decode(errors="replace"))

@@ -58,7 +58,8 @@ def parse_number(text: str, place: Place) -> sympy.Expr:
     for token in tokens:
         if token.kind == "name" and token.text != "pi":
             raise InputError(token.place, f"{token.text!r} is not a number", "numbers, pi and + - * / ^ ( )")
-    return _finite(_Parser(tokens).expression(), place)
+    # sympy sees that (pi + 1) (pi - 1) - pi^2 + 1 is zero only where it is expanded.
+    return _finite(sympy.expand(_Parser(tokens).expression()), place)
 
 
 def parse_quantity(text: str, unit: str | None, place: Place) -> Quantity:

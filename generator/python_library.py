@@ -27,9 +27,10 @@ def build_library(folder: Path, name: str) -> Path:
     sources += sorted((folder / "simulation").glob("*.c"))
     words = [*_FLAGS, f"-I{folder / 'c'}", *map(str, sources), "-o", str(library), "-lm"]
     done = Done(1, "")
+    library.unlink(missing_ok=True)
     for flags in _ATTEMPTS:
         done = run([*compiler(), *flags, *words])
-        if done.status == 0:
+        if done.status == 0 and library.exists():
             return library
     library.unlink(missing_ok=True)
     problem = f"it cannot be compiled ({done.reason})"

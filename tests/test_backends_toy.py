@@ -21,6 +21,7 @@ from hypothesis import assume, given
 from generator.backends import c as c_backend
 from generator.backends import casadi as casadi_backend
 from generator.backends import numpy as numpy_backend
+from generator.backends.printing.signals import safe
 from generator.c_selftest import WARNINGS
 from generator.selftest import Case
 from generator.symbolic.function import PARAMETERS
@@ -218,6 +219,10 @@ def test_what_depends_on_parameters_alone_is_prepared(library: Path) -> None:
         ("p2", "class/NQ"),
     ]
     assert "params" not in source.split("void toy_two", 1)[1].split("}", 1)[0]
+
+
+def test_no_text_ends_a_comment_or_joins_its_line_with_the_next() -> None:
+    assert safe('What is this??/\n?????*/ \\ "x"') == "What is this? ?/ ? ? ? ? ?* / / 'x'"
 
 
 def test_a_run_of_zeros_is_a_loop(library: Path) -> None:

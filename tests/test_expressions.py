@@ -110,6 +110,7 @@ def test_bad_expressions_are_refused_with_their_place(text: str, message: str) -
 
 def test_numbers_have_no_names() -> None:
     assert parse_number("3*pi/2", HERE) == 3 * sympy.pi / 2
+    assert parse_number("(pi + 1)*(pi - 1) - pi^2 + 1", HERE) == 0
     with pytest.raises(InputError) as refused:
         parse_number("2*d2", HERE)
     assert str(refused.value) == "arm.yaml:3:12: 'd2' is not a number, expected numbers, pi and + - * / ^ ( )"

@@ -392,7 +392,16 @@ def test_a_compiler_that_is_missing_or_fails_is_named(tmp_path: Path, monkeypatc
     file.write_text(PENDULUM)
     arm = Subject(derive(read(file), check=False), {})
     folder = folder_of(arm, tmp_path / "out")
-    for compiler, message in (("/no/such/cc", "there is no such program"), ("false", "it cannot be compiled")):
+    # In the encoding of a locale of its own.
+    other = tmp_path / "cc"
+    other.write_text("#!/bin/sh\nprintf '\\351chec, error: x'\nexit 1\n")
+    other.chmod(0o755)
+    for compiler, message in (
+        ("/no/such/cc", "there is no such program"),
+        ("false", "it cannot be compiled"),
+        ("true", "it cannot be compiled"),
+        (str(other), r"it cannot be compiled \(.*chec, error: x\)"),
+    ):
         monkeypatch.setenv("CC", compiler)
         with pytest.raises(InputError, match=message):
             build_library(folder, "pendulum")

@@ -76,9 +76,12 @@ def identifier(text: Text, what: str) -> str:
 def robot_name(text: Text) -> str:
     """The name that ``text`` gives to a robot, after which files, functions and a target of CMake are called.
 
-    Raises InputError as ``identifier`` does, and for a target that CMake keeps for itself.
+    Raises InputError as ``identifier`` does, for a _ at the end, and for a target that CMake keeps for
+    itself.
     """
     name = identifier(text, "robot name")
+    if name.endswith("_"):
+        raise InputError(text.place, f"robot name {name!r} makes names that are reserved in C++", "no _ at the end")
     if name in _CMAKE.split():
         raise InputError(text.place, f"robot name {name!r} is a target of CMake", "another name")
     if name in _HIDDEN:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import textwrap
 from collections.abc import Iterable, Sequence
 from itertools import groupby
@@ -38,6 +39,8 @@ def described(signal: Signal) -> str:
 
 def safe(text: str) -> str:
     """``text`` on one line, with nothing that would begin or end a comment of C, or a docstring of Python."""
+    # Trigraphs, of which one joins a line with the next.
+    text = re.sub(r"\?(?=\?)", "? ", text)
     return " ".join(text.replace("*/", "* /").replace("/*", "/ *").replace("\\", "/").replace('"', "'").split())
 
 

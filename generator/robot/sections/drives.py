@@ -166,8 +166,7 @@ def _constants(node: Node, key: str, factor: sympy.Expr, moving: Sequence[int]) 
 
 def _ratio(node: Node, what: str, between: Sequence[Joint], any_small: bool = False) -> sympy.Expr:
     """A ratio of what moves with the joints ``between``: teeth make fractions, a spindle or a pinion makes pi."""
-    # What is zero is seen to be.
-    value = sympy.expand(fields.number(node, what))
+    value = fields.number(node, what)
     if all(joint.sigma != PRISMATIC for joint in between):
         _check_fraction(node, what, value)
     fields.check_size(node.place, what, value, any_small)
