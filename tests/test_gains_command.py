@@ -215,7 +215,7 @@ def test_one_payload_with_two_values_is_refused(arm: Regressors, tmp_path: Path)
 
 def test_a_loaded_run_without_its_payload_shows_no_gain(arm: Regressors, tmp_path: Path) -> None:
     empty, loaded = (saved(tmp_path / f"{s}.csv", *currents(arm, s, False), 0.02, s) for s in (1, 2))
-    with pytest.raises(InputError, match="no drive gain of lifter can be told: what is known of the payload shows"):
+    with pytest.raises(InputError, match="no drive gain of lifter can be told: the currents do not show what is known"):
         drive_gains(arm.model.robot, [empty], [loaded], Payload("L", {"M": 20.0}), regressors=arm)
 
 
