@@ -16,14 +16,13 @@ import pytest
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from generator.backends import batch, c, numpy, python, simulation
-from generator.derivation import derive
-from generator.errors import InputError
+from generator.backends import numpy
 from generator.python_library import build_library
 from generator.robot.readers import read
 from tests.commands import PENDULUM, ROOT, command
-from tests.compiled import module, write
+from tests.compiled import module
 from tests.conftest import EVERY, derived
+from tests.library_folder import folder_of
 from tests.subject import Subject, subject
 
 Array = NDArray[Any]
@@ -56,13 +55,6 @@ def load(path: Path) -> Any:
     result = importlib.util.module_from_spec(specification)
     specification.loader.exec_module(result)
     return result
-
-
-def folder_of(arm: Subject, folder: Path) -> Path:
-    write(folder / "c", c.library(arm.model, ()))
-    for backend in (batch, python, simulation):
-        write(folder / backend.NAME, backend.emit(arm.model))
-    return folder
 
 
 @pytest.fixture(scope="module", params=ROBOTS)
@@ -385,23 +377,3 @@ def test_the_library_is_no_part_of_the_manifest_and_goes_with_an_older_generatio
         ["git", "check-ignore", "-q", "generated/kr500/python/libkr500.so"], cwd=ROOT, check=False
     ).returncode
     assert ignored in (0, 128)  # 128: no checkout
-
-
-def test_a_compiler_that_is_missing_or_fails_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    file = tmp_path / "pendulum.yaml"
-    file.write_text(PENDULUM)
-    arm = Subject(derive(read(file), check=False), {})
-    folder = folder_of(arm, tmp_path / "out")
-    # In the encoding of a locale of its own.
-    other = tmp_path / "cc"
-    other.write_text("#!/bin/sh\nprintf '\\351chec, error: x'\nexit 1\n")
-    other.chmod(0o755)
-    for compiler, message in (
-        ("/no/such/cc", "there is no such program"),
-        ("false", "it cannot be compiled"),
-        ("true", "it cannot be compiled"),
-        (str(other), r"it cannot be compiled \(.*chec, error: x\)"),
-    ):
-        monkeypatch.setenv("CC", compiler)
-        with pytest.raises(InputError, match=message):
-            build_library(folder, "pendulum")
