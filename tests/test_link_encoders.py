@@ -133,7 +133,7 @@ def test_a_linear_axis_has_a_latency_too(tmp_path: Path) -> None:
 
 def test_rows_near_a_torque_that_was_lost_are_not_used(machine: Machine, tmp_path: Path) -> None:
     """It stays what it was; the late encoder asks for the torques of then."""
-    run = load(simulated(machine, replace(RUN, link_delay=0.0055), tmp_path / "a.csv"), machine.robot)
+    run = load(simulated(machine, replace(RUN, link_delay=0.006), tmp_path / "a.csv"), machine.robot)
     lost = np.zeros((2, run.samples), dtype=bool)
     tau = run.tau.copy()
     for start in range(2000, 28000, 3000):
