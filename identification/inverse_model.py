@@ -88,6 +88,11 @@ class Identification:
         return self.regressors.model.robot
 
     @property
+    def units(self) -> dict[str, str]:
+        """Those of the base parameters by name."""
+        return {parameter.name: parameter.unit for parameter in self.regressors.model.base_parameters}
+
+    @property
     def essential_names(self) -> tuple[str, ...]:
         """Parameters that the essential model keeps and the data show by themselves, not in sums alone."""
         return tuple(name for name in self.essential.sought if name not in self.full.solution.hidden)

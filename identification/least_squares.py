@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from generator.words import listed
 from identification.arrays import Array
 from identification.factors import Factor, triangular
-from identification.rank import in_lengths, nonzero, not_identifiable, silent
+from identification.rank import in_lengths, nonzero, not_identifiable
 
 #: Residuals that are rounding, in parts of the torques, and the smallest number that one may divide by.
 _ROUNDING, _TINY = 1e-12, 1e-300
@@ -196,9 +196,5 @@ def _error(R: Array, chi: Array) -> float:
 
 def _rank(R: Array) -> int:
     """Number of independent columns, each taken in units of its length."""
-    size = np.linalg.norm(R, axis=0)
-    live = R[:, ~silent(size)]
-    if not live.size:
-        return 0
-    s = np.linalg.svd(live / np.linalg.norm(live, axis=0), compute_uv=False)
+    s: Array = np.linalg.svd(in_lengths(R)[0], compute_uv=False)
     return int(nonzero(s).sum())

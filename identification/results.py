@@ -98,7 +98,7 @@ def parameter_sets(found: Identification, consistent: ConsistentFit | None = Non
     """What was identified as a robot file holds it: all base parameters, essential ones, consistent standard ones."""
     runs = ", ".join(Path(one.sampled.run.name).name for one in found.train)
     source = f"identified with the inverse dynamic model and least squares from {runs}"
-    units = {parameter.name: parameter.unit for parameter in found.regressors.model.base_parameters}
+    units = found.units
     given = found.options.fixed
     sets = [
         ParameterSet(
@@ -148,7 +148,7 @@ def _std_of(draws: int) -> str:
 
 def _parameters(found: Identification, estimate: Estimate) -> dict[str, Any]:
     solution = estimate.solution
-    units = {parameter.name: parameter.unit for parameter in found.regressors.model.base_parameters}
+    units = found.units
     return {
         name: {
             "value": None if name in solution.hidden else solution.values[name],

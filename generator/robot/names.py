@@ -76,8 +76,7 @@ def identifier(text: Text, what: str) -> str:
 def robot_name(text: Text) -> str:
     """The name that ``text`` gives to a robot, after which files, functions and a target of CMake are called.
 
-    Raises InputError as ``identifier`` does, for a _ at the end, and for a target that CMake keeps for
-    itself.
+    Raises InputError as ``identifier`` does, for a _ at the end, and for a target that CMake keeps for itself.
     """
     name = identifier(text, "robot name")
     if name.endswith("_"):

@@ -234,7 +234,7 @@ def _units(found: Identification) -> dict[str, str]:
 
     payloads = [payload for one in found.train if (payload := one.sampled.run.payload) is not None]
     own = {name: UNITS[stem] for one in payloads for stem, name in one.names().items()}
-    return {parameter.name: parameter.unit for parameter in found.regressors.model.base_parameters} | own
+    return found.units | own
 
 
 def _summary(found: Identification, consistent: ConsistentFit | None) -> str:
