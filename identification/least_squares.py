@@ -196,5 +196,5 @@ def _error(R: Array, chi: Array) -> float:
 
 def _rank(R: Array) -> int:
     """Number of independent columns, each taken in units of its length."""
-    s: Array = np.linalg.svd(in_lengths(R)[0], compute_uv=False)
-    return int(nonzero(s).sum())
+    scaled, _, _ = in_lengths(R)
+    return int(nonzero(np.asarray(np.linalg.svd(scaled, compute_uv=False), dtype=float)).sum())
