@@ -21,6 +21,7 @@ _MAX_LENGTH = 500
 _MAX_DEPTH = 32
 _MAX_EXPONENT = 64
 _MAX_BITS = 4096
+_MAX_TERMS = 1000
 
 _TOKEN = re.compile(
     r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|(?P<name>[A-Za-z_]\w*)|(?P<operator>\*\*|[-+*/^()]))",
@@ -242,10 +243,21 @@ def _number(token: _Token) -> sympy.Expr:
 
 
 def _bounded(value: sympy.Expr, place: Place) -> sympy.Expr:
-    """``value`` unless its exact fraction has grown beyond bounds."""
+    """``value`` unless its exact fraction has grown beyond bounds, or what it is when it is written out."""
     if _bits(value) > _MAX_BITS:
         raise InputError(place, "the exact fraction grows too large", f"at most {_MAX_BITS} bits")
+    if _terms(value) > _MAX_TERMS:
+        raise InputError(place, "the expression grows too large", f"at most {_MAX_TERMS} terms when it is written out")
     return value
+
+
+def _terms(value: sympy.Expr) -> int:
+    """At most how many terms ``value`` has when its products and powers are written out."""
+    if value.is_Pow and value.exp.is_Integer:
+        base, exponent = _terms(value.base), abs(int(value.exp))
+        return math.comb(base - 1 + exponent, exponent)
+    parts = [_terms(part) for part in value.args]
+    return sum(parts) if value.is_Add else math.prod(parts)
 
 
 def _bits(value: sympy.Expr) -> int:
@@ -299,4 +311,4 @@ def _power(base: sympy.Expr, exponent: sympy.Expr, place: Place) -> sympy.Expr:
         raise InputError(place, "the power grows too large", f"exponents up to {_MAX_EXPONENT} altogether")
     if exponent < 0 and vanishes(base):
         raise InputError(place, "division by zero", "a divisor that is not zero")
-    return base**exponent
+    return _bounded(base**exponent, place)

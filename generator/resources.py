@@ -55,7 +55,7 @@ def find_robot(name_or_path: str) -> Path:
     near = difflib.get_close_matches(name_or_path, known, n=1)
     perhaps = f"perhaps {near[0]}, else " if near else ""
     raise InputError(
-        Place(name_or_path),
+        Place(name_or_path or "ROBOT"),
         f"there is no robot {name_or_path!r}",
         f"{perhaps}one of {', '.join(known)} or the path of a robot file",
     )

@@ -1,4 +1,7 @@
-"""Writing a folder of files so that a reader sees the old generation or the new one, never a mixture."""
+"""Writing a folder of files: all of the new generation or, where anything fails, all of the old one.
+
+Files are renamed one by one; who reads while that lasts may see some of both.
+"""
 
 from __future__ import annotations
 

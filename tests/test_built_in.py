@@ -119,8 +119,19 @@ _DRIVE = "drives: {gear_ratios: [50], torque_constants: {unit: N m/A, use: a, a:
 @pytest.mark.parametrize(
     ("text", "parameter_set", "expected"),
     [
-        (PENDULUM, "heavy", "pendulum.yaml:1:1: no parameter set 'heavy', expected one of light"),
-        (PENDULUM.split("parameters:")[0], "light", "no parameter set 'light', expected a robot with parameter sets"),
+        (PENDULUM, "heavy", "pendulum.yaml, expected one of light"),
+        (PENDULUM.split("parameters:")[0], "light", "pendulum.yaml, expected a robot with parameter sets"),
+        (PENDULUM, "heavy", "error: --build-in:1:1: no parameter set 'heavy' in "),
+        (
+            PENDULUM.replace("light:", "no_:"),
+            "no_",
+            "--build-in:1:1: robot name 'pendulum_no_' makes names that are reserved in C++, expected no _ at the end",
+        ),
+        (
+            PENDULUM.replace("name: pendulum", "name: size").replace("light:", "t:"),
+            "t",
+            "--build-in:1:1: robot name 'size_t' is a name of the C library, expected another name",
+        ),
         (PENDULUM.replace("      ZZ1: 2 kg m2\n", ""), "light", "divides by a parameter that is zero"),
         (
             f"{PENDULUM}      Fv3: 1 N m s/rad\n",

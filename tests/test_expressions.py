@@ -97,6 +97,14 @@ GRAMMAR = "expected numbers, pi, names and + - * / ^ ( )"
         ("(2^64)^64^64", "16: the power grows too large, expected exponents up to 64 altogether"),
         ("((pi^8)^8)^8", "20: the power grows too large, expected exponents up to 64 altogether"),
         ("*".join(["(9*9*9*9)^64"] * 20), "74: the exact fraction grows too large, expected at most 4096 bits"),
+        (
+            "(a + b + c + d)^20/(a + b + c + d)^19",
+            "25: the expression grows too large, expected at most 1000 terms when it is written out",
+        ),
+        (
+            "(a + b)^9*(c + d)^9*(a + d)^9/(a + b)^26",
+            "39: the expression grows too large, expected at most 1000 terms when it is written out",
+        ),
         ("(" * 33 + "1" + ")" * 33, "42: the expression is nested too deeply, expected at most 32 levels"),
         ("2" + "^1" * 100, "75: the expression is nested too deeply, expected at most 32 levels"),
         ("x" * 501, "10: an expression of 501 characters, expected at most 500"),

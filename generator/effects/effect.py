@@ -56,8 +56,8 @@ class Shape:
     search for an unknown one begins, in units of the joint's top speed where ``relative`` says "speed", of its rotor's
     inertia where it says "rotor", of half the range it moves through, from its middle, where it says "position", of
     that half or of the shape's unit, whichever is less, where it says "way", and ``within`` are ends between which it
-    goes on from there in geometric steps; where ``whole`` nothing between whole numbers is a value, and where
-    ``several`` every whole number up to that one can be. Where ``exact`` what fits better between two whole numbers is
+    goes on from there in geometric steps; where ``whole`` nothing between whole numbers is tried, and where
+    ``several`` every whole number up to that one. Where ``exact`` what fits better between two whole numbers is
     another effect. Of a ``scale`` any value will do where none is known: others count in units of it. One that is
     ``nonzero`` may have either sign.
     """

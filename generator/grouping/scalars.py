@@ -128,10 +128,6 @@ class Numbers:
         tangents = {sympy.Symbol(str(t)): sympy.tan(angle / 2) for angle, t in self._half_tangents.items()}
         return result.subs(tangents).subs(renamed)
 
-    def value(self, expression: sympy.Expr) -> float:
-        """The number of an expression at the robot's lengths."""
-        return float(exact_constant(sympy.sympify(expression).subs(self._values)))
-
     def _rational(self, expression: sympy.Expr) -> Any:
         if expression.is_Symbol:
             return self._generators[str(expression)]

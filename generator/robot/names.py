@@ -76,13 +76,23 @@ def identifier(text: Text, what: str) -> str:
 def robot_name(text: Text) -> str:
     """The name that ``text`` gives to a robot, after which files, functions and a target of CMake are called.
 
-    Raises InputError as ``identifier`` does, for a _ at the end, and for a target that CMake keeps for itself.
+    Raises InputError as ``identifier`` and ``check_name`` do.
     """
     name = identifier(text, "robot name")
+    check_name(text)
+    return name
+
+
+def check_name(text: Text) -> None:
+    """Raises InputError where code cannot be called after the robot name ``text``: for a _ at the end, a name that a
+    language keeps for itself, a target of CMake, a header or a module.
+    """
+    name = text.content
     if name.endswith("_"):
         raise InputError(text.place, f"robot name {name!r} makes names that are reserved in C++", "no _ at the end")
     if name in _CMAKE.split():
         raise InputError(text.place, f"robot name {name!r} is a target of CMake", "another name")
+    if name in _RESERVED:
+        raise InputError(text.place, f"robot name {name!r} is {_RESERVED[name]}", "another name")
     if name in _HIDDEN:
         raise InputError(text.place, f"robot name {name!r} is a header of C or a module of Python", "another name")
-    return name

@@ -9,14 +9,17 @@ from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 
-import sympy
-
 from generator.effects.library import library
-from generator.errors import InputError
+from generator.errors import InputError, Place
 from generator.robot.description import EffectUse, Length, ParameterSet, Robot
+from generator.robot.document import Text
 from generator.robot.fields import nearest
+from generator.robot.names import check_name
 from generator.symbolic.model import Model
-from generator.symbolic.parameter_sets import parameter_vector
+from generator.symbolic.parameter_sets import exact, parameter_vector
+
+#: Where the name of the set is given.
+_OPTION = Place("--build-in")
 
 
 def built_in(robot: Robot, name: str, plain: bool = False) -> Model:
@@ -25,16 +28,19 @@ def built_in(robot: Robot, name: str, plain: bool = False) -> Model:
     It is called ``<robot>_<set>``. A length or torque constant that the set lacks is the robot's own. Joints are
     elastic where the set gives their stiffness, and rigid elsewhere.
 
-    Raises InputError if the robot has no such set, the set does not fit the robot or has a torque constant of zero.
+    Raises InputError if the robot has no such set, the set does not fit the robot or has a torque constant of zero, and
+    where the two names together are none that generated code may have.
     """
     if name not in robot.parameter_sets:
         expected = nearest(name, robot.parameter_sets) if robot.parameter_sets else "a robot with parameter sets"
-        raise InputError(robot.place, f"no parameter set {name!r}", expected)
+        raise InputError(_OPTION, f"no parameter set {name!r} in {robot.place.file}", expected)
     chosen = robot.parameter_sets[name]
+    called = Text(f"{robot.name}_{name}", _OPTION)
+    check_name(called)
     flexible = tuple(joint for joint in robot.flexible if f"k{joint}" in chosen.values)
     numeric = replace(
         robot,
-        name=f"{robot.name}_{name}",
+        name=called.content,
         description="; ".join(filter(None, (robot.description, f"parameter set {name} built in"))),
         lengths=tuple(_number(length, chosen) for length in robot.lengths),
         flexible=flexible,
@@ -65,5 +71,5 @@ def _number(length: Length, chosen: ParameterSet) -> Length:
     if not length.symbolic:
         return length
     given = chosen.values.get(length.name)
-    value = length.value if given is None else sympy.Rational(str(given.value))
+    value = length.value if given is None else exact(given)
     return replace(length, value=value, symbolic=False)

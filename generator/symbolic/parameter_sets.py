@@ -39,6 +39,11 @@ def parameter_vector(model: Model, values: Values) -> Vector:
     return vector
 
 
+def exact(value: ParameterValue) -> sympy.Rational:
+    """The number of a set as it is written: 0.1 is 1/10."""
+    return sympy.Rational(str(value.value))
+
+
 def standard_vector(model: Model, values: Values) -> Vector:
     """The vector ``standard_parameters`` [SI], in the order of ``model.standard_parameters``; zero where not given.
 
@@ -156,7 +161,7 @@ def _grouped(model: Model, values: Values) -> dict[str, float]:
     if any(length.symbolic and length.name in values for length in model.robot.lengths):
         lengths = {
             sympy.Symbol(length.name, real=True): (
-                sympy.Rational(values[length.name].value) if length.symbolic and length.name in values else length.value
+                exact(values[length.name]) if length.symbolic and length.name in values else length.value
             )
             for length in model.robot.lengths
         }

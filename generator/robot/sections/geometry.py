@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import re
 
 import sympy
 
 from generator.errors import InputError
-from generator.robot import fields
+from generator.robot import fields, rounding
 from generator.robot.description import Length
 from generator.robot.document import Entry, Node, Table, Text
 from generator.robot.names import identifier
@@ -22,9 +23,9 @@ _SIGNALS = ("pi", "wrench", "payload", "parameters", "standard_parameters")
 def lengths(entry: Entry | None) -> dict[str, Length]:
     """The named lengths and angles of ``geometry``.
 
-    Raises InputError for a name that the generated code or the model uses otherwise and for a value without a unit or
-    too large (``fields.check_size``). Whether a name is that of an effect's parameter is checked against the library of
-    effects, not here.
+    Raises InputError for a name that the generated code or the model uses otherwise and for a value without a unit, too
+    large (``fields.check_size``) or rounded (``rounding``). Whether a name is that of an effect's parameter is checked
+    against the library of effects, not here.
     """
     found: dict[str, Length] = {}
     for key, one in fields.named(entry.value, "geometry").items() if entry else ():
@@ -58,12 +59,17 @@ def _length(name: str, entry: Entry) -> Length:
     if value.unit not in ("m", "rad"):
         raise InputError(value.place, f"length {name} is in {value.unit}", units)
     fields.check_size(value.place, f"length {name}", value.value, any_small=True)
+    (rounding.check_length if value.unit == "m" else rounding.check_angle)(value.place, name, value.value)
     return Length(name, value.value, value.unit, symbolic, entry.key)
 
 
 def gravity(entry: Entry) -> tuple[sympy.Expr, sympy.Expr, sympy.Expr]:
     """Acceleration of free fall in the world frame [m/s2]; raises InputError for what no world has."""
-    return _vector(entry.value, "gravity", "m/s2", "accelerations")
+    parts = _vector(entry.value, "gravity", "m/s2", "accelerations")
+    size = math.hypot(*map(float, parts))
+    for node, part in zip(fields.items(entry.value, "gravity"), parts, strict=True):
+        rounding.check_gravity(node.place, part, size)
+    return parts
 
 
 def base(entry: Entry | None) -> sympy.ImmutableMatrix:
@@ -73,7 +79,10 @@ def base(entry: Entry | None) -> sympy.ImmutableMatrix:
     keys = fields.table(entry.value, "base", optional=("rotation", "translation"))
     pose = sympy.eye(4)
     if "rotation" in keys:
-        roll, pitch, yaw = _vector(keys["rotation"].value, "rotation", "rad", "angles")
+        node = keys["rotation"].value
+        roll, pitch, yaw = _vector(node, "rotation", "rad", "angles")
+        for item, angle in zip(fields.items(node, "rotation"), (roll, pitch, yaw), strict=True):
+            rounding.check_angle(item.place, "rotation", angle)
         # sympy's rot_axis turn the axes rather than the vector, hence the signs
         pose[:3, :3] = sympy.rot_axis3(-yaw) * sympy.rot_axis2(-pitch) * sympy.rot_axis1(-roll)
     if "translation" in keys:

@@ -9,7 +9,7 @@ import sympy
 
 from generator import expressions
 from generator.errors import InputError, Place
-from generator.robot import fields
+from generator.robot import fields, rounding
 from generator.robot.description import Length
 from generator.robot.document import Node, Text
 from generator.units import accepted
@@ -21,13 +21,13 @@ _INSTEAD = {"m": "lengths of the geometry", "rad": "multiples of pi and angles o
 def constant(node: Node, what: str, unit: str, lengths: Mapping[str, Length]) -> sympy.Expr:
     """An angle [rad] or length [m]: an expression over the geometry's names, or a number with its unit.
 
-    Raises InputError for an undefined name, a joint variable, another dimension and a value that is not finite or too
-    large (``fields.check_size``).
+    Raises InputError for an undefined name, a joint variable, another dimension, a value that is not finite or too
+    large (``fields.check_size``), and one that is rounded (``rounding``).
     """
     scalar = fields.text(node, what, "an expression")
     if expressions.has_unit(scalar.content):
         value = fields.quantity(scalar, what, unit).value
-        fields.check_size(scalar.place, what, value, any_small=True)
+        _check_size(scalar.place, what, value, unit)
         return value
     value = fields.expression(scalar, what)
     for name in sorted(map(str, value.free_symbols)):
@@ -69,7 +69,12 @@ def _check_dimension(value: sympy.Expr, scalar: Text, what: str, unit: str, leng
     nominal = value.xreplace({sympy.Symbol(name, real=True): length.value for name, length in lengths.items()})
     if not expressions.is_finite(nominal):
         raise InputError(scalar.place, f"{what} is not finite for the lengths given", "a finite value")
-    fields.check_size(scalar.place, what, nominal, any_small=True)
+    _check_size(scalar.place, what, nominal, unit)
+
+
+def _check_size(place: Place, what: str, value: sympy.Expr, unit: str) -> None:
+    fields.check_size(place, what, value, any_small=True)
+    (rounding.check_length if unit == "m" else rounding.check_angle)(place, what, value)
 
 
 def _degree_one(value: sympy.Expr, scaled: list[sympy.Expr]) -> bool:

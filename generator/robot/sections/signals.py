@@ -26,7 +26,8 @@ def signals(entry: Entry | None, joints: Sequence[Joint], driven: bool) -> Signa
     ``driven`` tells whether the robot has drives.
 
     Raises InputError for another number of values, another unit, a delay over 0.1 s, one of link-side positions that is
-    negative, a gain that is not between 0.3 and 3, a limit, time, rise or torque that is not positive.
+    negative, a gain that is not between 0.3 and 3, a limit, time, rise or torque that is not positive, and a value too
+    large (``fields.check_size``).
     """
     if entry is None:
         return Signals()
@@ -41,6 +42,7 @@ def _values(node: Node, key: str, moving: Sequence[Joint], driven: bool) -> tupl
     for joint, item in zip(moving, nodes, strict=True):
         what, unit = f"{key} of joint {joint.number}", signal_unit(key, joint, driven)
         value = fields.number(item, what) if unit == "1" else fields.quantity(item, what, unit).value
+        fields.check_size(item.place, what, value, any_small=True)
         _CHECKS[key](item.place, what, value, unit)
         result.append(value)
     return tuple(result)
