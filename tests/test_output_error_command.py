@@ -256,6 +256,17 @@ def test_what_is_given_is_written_beside_what_is_found(
     assert any(line.split()[0] == "Fv1" and line.endswith("given") for line in done.out.splitlines())
 
 
+@pytest.mark.parametrize(("iterations", "settled"), [("1", False), ("30", True)])
+def test_a_search_that_was_cut_short_is_told(
+    iterations: str, settled: bool, folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["--data", folder / "A.csv", "--iterations", iterations, "--out", tmp_path]
+    done = command("output-error", folder / "slide.yaml", *words, capsys=capsys)
+    assert done.status == 0, done.err
+    assert json.loads((tmp_path / "results.json").read_text())["method"]["settled"] is settled
+    assert ("came to its last iteration or second before it settled" not in done.out) is settled
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [

@@ -36,9 +36,10 @@ class Estimate:
     ``covariance`` (b x b); ``hidden`` are those of them that no position shows alone, their variance is infinite.
     ``train`` and ``test`` (None if there is none) are the positions' errors [rad, m], on held-out runs with first
     states of their own; ``errors`` and ``test_errors`` are measured less simulated positions (S x K x n), run by run.
-    ``poses`` (N x n) [rad, m] are those at which M(q) was looked at, ``eigenvalues`` (N x n) its
-    own there, rising [kg m2, kg], ``margin`` the least that is allowed. ``condition`` is that of the sensitivities with
-    columns of unit length, ``segments`` the number of simulations of one run through the data.
+    ``poses`` (N x n) [rad, m] are those at which M(q) was looked at, ``eigenvalues`` (N x n) its own there, rising
+    [kg m2, kg], ``margin`` the least that is allowed. ``condition`` is that of the sensitivities with columns of
+    unit length, ``segments`` the number of simulations of one run through the data, ``settled`` whether the search
+    came to its end, rather than to its last iteration or second.
     """
 
     names: tuple[str, ...]
@@ -56,6 +57,7 @@ class Estimate:
     segments: int
     simulations: int
     iterations: int
+    settled: bool
 
     @property
     def limited(self) -> bool:
@@ -126,6 +128,7 @@ def evaluated(search: Search, minimum: Minimum, tests: Sequence[Experiment] = ()
         segments=sum(len(one.tau) for one in criterion.experiments),
         simulations=minimum.simulations,
         iterations=minimum.iterations,
+        settled=minimum.settled,
     )
 
 

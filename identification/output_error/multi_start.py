@@ -34,7 +34,12 @@ from identification.study import Counted, key_of, study
 #: Folder of the results of single starts.
 STARTS = "starts"
 #: Keys of such a result.
-_RESULT = ("chi", "states", "scale", "rms", "simulations", "iterations")
+_RESULT = ("chi", "states", "scale", "rms", "simulations", "iterations", "settled")
+#: What is told of the best start where its search was cut short.
+_UNSETTLED = (
+    "the search of the best start came to its last iteration or second before it settled: its values may be further "
+    "off than their standard deviations say, more iterations or seconds take it to its end"
+)
 
 
 @dataclass(frozen=True)
@@ -128,12 +133,13 @@ def output_error(
 def _check_kept(results: Mapping[str, Any], criterion: Criterion, chi: Array, folder: Path) -> None:
     """Raises InputError for one of the ``results`` in ``folder`` whose numbers are not as many as a search leaves."""
     first = criterion.begin(chi).states
-    like: dict[str, Array | int] = {
+    like: dict[str, Array | float] = {
         "chi": chi,
         "scale": criterion.scale,
         "rms": criterion.scale,
         "simulations": 0,
         "iterations": 0,
+        "settled": True,
     }
     for name, one in results.items():
         states = one["states"] if isinstance(one["states"], list) else []
@@ -143,13 +149,13 @@ def _check_kept(results: Mapping[str, Any], criterion: Criterion, chi: Array, fo
             raise InputError(place, "these are not the numbers of a start", "a file that output-error wrote")
 
 
-def _alike(found: object, like: Array | int) -> bool:
-    """Whether a JSON value has numbers alone, in the shape of ``like``."""
+def _alike(found: object, like: Array | float) -> bool:
+    """Whether a JSON value has numbers or truths alone, in the shape of ``like``."""
     try:
         numbers = np.array(found)
     except ValueError:
         return False
-    return numbers.dtype.kind in "if" and numbers.shape == np.shape(like)
+    return numbers.dtype.kind in ("b" if like is True else "if") and numbers.shape == np.shape(like)
 
 
 def run_start(start: Start) -> dict[str, Any]:
@@ -164,6 +170,7 @@ def run_start(start: Start) -> dict[str, Any]:
         "rms": found.rms.tolist(),
         "simulations": found.simulations,
         "iterations": found.iterations,
+        "settled": found.settled,
     }
 
 
@@ -202,7 +209,7 @@ def _key(start: Start) -> str:
 def _minimum(search: Search, result: Mapping[str, Any]) -> Minimum:
     point = Point(np.array(result["chi"]), tuple(np.array(one) for one in result["states"]))
     criterion = replace(search.criterion, scale=np.array(result["scale"]))
-    return Minimum(point, criterion, result["simulations"], result["iterations"])
+    return Minimum(point, criterion, result["simulations"], result["iterations"], result["settled"])
 
 
 def _score(search: Search, rms: Array) -> float:
@@ -218,6 +225,8 @@ def _notes(first: Identification, best: Estimate, runs: Sequence[Experiment]) ->
         unused = one.motion.samples - one.tau.shape[0] * one.tau.shape[1]
         if unused * one.period >= 0.1:
             notes.append(f"{one.run.name}: {unused * one.period:.3g} s are not part of any segment")
+    if not best.settled:
+        notes.append(_UNSETTLED)
     if best.limited:
         notes.append("the constraint that M(q) is positive definite holds; standard deviations are those without it")
     if best.test is not None and not np.isfinite(best.test.total.norm):

@@ -54,6 +54,7 @@ def document(found: OutputError) -> dict[str, Any]:
             "std": "torque noise through the sensitivities, its correlation as found",
             "iterations": best.iterations,
             "simulations": best.simulations,
+            "settled": best.settled,
             "seed": settings.seed,
             "spread": settings.spread,
         },

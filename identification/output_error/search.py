@@ -61,12 +61,15 @@ class Search:
 
 @dataclass(frozen=True)
 class Minimum:
-    """Where a search ended: the point, the criterion with the weights it ended with, and what it took."""
+    """Where a search ended: the point, the criterion with the weights it ended with, what it took, and whether it had
+    ``settled``, rather than come to its last iteration or second.
+    """
 
     point: Point
     criterion: Criterion
     simulations: int
     iterations: int
+    settled: bool
 
     @property
     def rms(self) -> Array:

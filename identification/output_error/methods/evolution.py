@@ -46,4 +46,4 @@ def minimise(search: Search, start: Array) -> Minimum:
     polish = replace(search, settings=replace(settings, iterations=None, seconds=None))
     found = gauss_newton.minimise(polish, best)
     simulations = found.simulations + int(evolution.countevals) + 1
-    return Minimum(found.point, found.criterion, simulations, found.iterations + generations)
+    return replace(found, simulations=simulations, iterations=found.iterations + generations)

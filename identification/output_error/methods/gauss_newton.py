@@ -33,16 +33,17 @@ def minimise(search: Search, start: Array) -> Minimum:
         if search.weighted:
             criterion = criterion.weighted(criterion.errors(point))
         point = descent.down(criterion, point)
-    return Minimum(point, criterion, descent.simulations, descent.iterations)
+    return Minimum(point, criterion, descent.simulations, descent.iterations, descent.settled)
 
 
 @dataclass
 class _Descent:
-    """Counts what a descent takes."""
+    """Counts what a descent takes, and tells whether the last one ended where no step gains."""
 
     search: Search
     simulations: int = 0
     iterations: int = 0
+    settled: bool = False
 
     def __post_init__(self) -> None:
         settings = self.search.settings
@@ -52,6 +53,7 @@ class _Descent:
     def down(self, criterion: Criterion, point: Point) -> Point:
         """The minimum of one criterion."""
         value, damping = self._value(criterion, point), _FIRST
+        self.settled = False
         for _ in range(_MOST):
             if self.iterations >= self._most or time.monotonic() > self._end or not np.isfinite(value):
                 break
@@ -75,6 +77,7 @@ class _Descent:
                     break
                 damping *= _HARDER
             if gain <= _ENOUGH * value:
+                self.settled = True
                 break
         return point
 

@@ -39,4 +39,5 @@ def minimise(search: Search, start: Array) -> Minimum:
         value, start, method="Nelder-Mead", callback=called, options={"maxiter": most, "maxfev": 10 * most}
     )
     best = found.x if found.fun <= value(start) else start
-    return Minimum(criterion.begin(np.asarray(best, dtype=float)), criterion, int(found.nfev) + 1, int(found.nit))
+    point = criterion.begin(np.asarray(best, dtype=float))
+    return Minimum(point, criterion, int(found.nfev) + 1, int(found.nit), bool(found.success))
