@@ -30,6 +30,7 @@ from identification.signals import (
     measured,
     numbered,
     overlooked,
+    sound,
 )
 from identification.timing import Clock, clock, jitters
 
@@ -142,7 +143,7 @@ def load(
     wanted = {name: one for name, one in (columns or {}).items() if name not in recording.columns}
     lacking = {_signal(name) for name, one in wanted.items() if not _possible(one, recording)}
     wanted = {name: one for name, one in wanted.items() if _signal(name) not in lacking}
-    recording = numbered(renamed(renamed(recording, wanted), beside.columns), robot)
+    recording = numbered(sound(renamed(renamed(recording, wanted), beside.columns)), robot)
     recorded = _recorded(source, named.rows_of(recording), robot, efforts, resting)
     known = replace(
         recorded,
@@ -160,7 +161,8 @@ def _signal(column: str) -> str:
 
 
 def _possible(formula: Formula, recording: Recording) -> bool:
-    return all(symbol.name in recording.columns for symbol in formula.expression.free_symbols)
+    there = {*recording.columns, *recording.faults}
+    return all(symbol.name in there for symbol in formula.expression.free_symbols)
 
 
 def _beginning(recording: Recording, robot: Robot) -> dict[str, float]:

@@ -30,7 +30,9 @@ class Formula:
     text: Text
 
     def values(self, recording: Recording) -> Array:
-        """The column (N); raises InputError where the file lacks a name of the formula, or holds words under it."""
+        """The column (N); raises InputError where the file lacks a name of the formula, or holds words under it, one
+        among numbers too.
+        """
         names = sorted(symbol.name for symbol in self.expression.free_symbols)
         for name in names:
             if name in recording.words:
@@ -38,6 +40,8 @@ class Formula:
                 problem = f"{name} holds no number in any row, the first is {word!r}"
                 expected = f"numbers for the formula at {self.text.place}{_CLOCK if ':' in word else ''}"
                 raise InputError(recording.where(row, name), problem, expected)
+            if name in recording.faults:
+                raise recording.faults[name]
             if name not in recording.columns:
                 problem = f"{recording.file} has no column {name}"
                 raise InputError(self.text.place, problem, f"one of {', '.join(recording.columns)}")

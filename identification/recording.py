@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TypeAlias
 
-from generator.errors import Place
+from generator.errors import InputError, Place
 from generator.words import listed
 from identification.arrays import Array
 
@@ -27,6 +27,11 @@ def left_out(file: str, words: Collection[str]) -> tuple[str, ...]:
     """What is to be told of columns of a file that hold no number; nothing without any."""
     are = "is" if len(words) == 1 else "are"
     return (f"{file}: {listed([*words])} held no number and {are} left out",) if words else ()
+
+
+def broken_off(faults: Mapping[str, InputError]) -> tuple[str, ...]:
+    """What is to be told of columns that do not hold numbers alone."""
+    return tuple(f"{fault.place}: {fault.problem}; the column is left out" for fault in faults.values())
 
 
 def read_as_seconds(file: str, clocks: Collection[str]) -> tuple[str, ...]:
@@ -54,7 +59,8 @@ class Recording:
     """Columns by name (N each), as written.
 
     ``where`` tells the place of a value; ``sha256`` is of the file; ``notes`` tell what was repaired in reading. Of
-    columns that were left out since they hold no number ``words`` tell the first row that says something, and what.
+    columns that were left out since they hold no number ``words`` tell the first row that says something, and what;
+    ``faults`` tell what is wrong with those that were left out since they do not hold numbers alone.
     """
 
     file: str
@@ -63,6 +69,7 @@ class Recording:
     where: Where
     notes: tuple[str, ...] = ()
     words: Mapping[str, tuple[int, str]] = field(default_factory=dict)
+    faults: Mapping[str, InputError] = field(default_factory=dict)
 
     @property
     def rows(self) -> int:

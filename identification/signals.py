@@ -36,6 +36,14 @@ def meant(name: str) -> bool:
     return name in ("t", *WRENCH) or (match is not None and match[1] in STEMS)
 
 
+def sound(recording: Recording) -> Recording:
+    """The recording; raises InputError where a column whose name means something does not hold numbers alone."""
+    for name, fault in recording.faults.items():
+        if meant(name) and name not in recording.columns:
+            raise fault
+    return recording
+
+
 def numbered(recording: Recording, robot: Robot) -> Recording:
     """The recording with the positions and efforts of a robot's only joint under its number, where they have none."""
     if len(robot.numbers) != 1:

@@ -193,3 +193,28 @@ def test_a_header_in_another_form_is_told(text: str, told: str, robot: Robot, tm
     (tmp_path / "a.csv").write_text(text)
     with pytest.raises(InputError, match=told):
         load(str(tmp_path / "a.csv"), robot)
+
+
+def test_a_column_that_nothing_reads_may_hold_words_among_numbers(good: Recorded, robot: Robot, tmp_path: Path) -> None:
+    header, *rows = good.save(tmp_path / "a.csv").read_text().splitlines()
+    states = ["0"] * 7 + ["STOP"] + ["1"] * (len(rows) - 8)
+    sparse = ["2.5" if k % 10 == 0 else "" for k in range(len(rows))]
+    lines = [f"{header},state,force", *map(",".join, zip(rows, states, sparse, strict=True))]
+    (tmp_path / "b.csv").write_text("\n".join(lines) + "\n")
+    run = load(str(tmp_path / "b.csv"), robot)
+    assert np.allclose(run.q, stacked(good, "q"), atol=1e-12)
+    at = [lines[k].index(word, len(rows[k - 1])) + 1 for k, word in ((2, ""), (8, "STOP"))]
+    assert [note.partition("b.csv:")[2] for note in run.notes] == [
+        f"3:{lines[2].rindex(',') + 2}: force is missing; the column is left out",
+        f"9:{at[1]}: state is 'STOP'; the column is left out",
+    ]
+    side = tmp_path / "b.yaml"
+    side.write_text("columns: {tau2: tau2 + state}\n")
+    with pytest.raises(InputError, match=r"b.csv:9:\d+: state is 'STOP', expected a number"):
+        load(str(tmp_path / "b.csv"), robot)
+    side.write_text("columns: {tau2: tau1, t: t, q1: q1}\n")
+    (tmp_path / "b.csv").write_text("\n".join(lines).replace(rows[4], rows[4].rpartition(",")[0] + ",ERR") + "\n")
+    assert np.array_equal(load(str(tmp_path / "b.csv"), robot).tau[1], run.tau[0])
+    side.unlink()
+    with pytest.raises(InputError, match=r"b.csv:6:\d+: tau2 is 'ERR', expected a number"):
+        load(str(tmp_path / "b.csv"), robot)

@@ -32,6 +32,8 @@ def read(path: Path) -> Recording:
     except OSError as error:
         raise InputError(Place(file), f"cannot read the file ({error.strerror or error})", expected) from None
     if not recording.columns:
+        for fault in recording.faults.values():
+            raise fault
         for name, (row, word) in recording.words.items():
             raise InputError(recording.where(row, name), f"{name} is the text {word!r}", _NUMBERS)
     if not recording.rows:

@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
-from typing import NoReturn
+from typing import NoReturn, TypeAlias
 
 import numpy as np
 
@@ -19,10 +20,13 @@ from generator.errors import InputError, Place
 from generator.robot.readers import undecodable
 from identification.arrays import Array
 from identification.clock_times import is_clock_time, seconds
-from identification.recording import Recording, digest, left_out, read_as_seconds
+from identification.recording import Recording, broken_off, digest, left_out, read_as_seconds
 from identification.text_form import Form, decimal_mark, encoding_of, form, other_marks, split
 
 EXTENSIONS = (".csv", ".tsv", ".txt")
+
+#: What is wrong with a column, by its name.
+Faults: TypeAlias = dict[str, InputError]
 
 _HEADER = "a header row with the columns' names"
 _SAYS_NOTHING = "; a line that begins with # or % says nothing"
@@ -72,26 +76,26 @@ def read(path: Path) -> Recording:
     names: Sequence[str] = form.names
     words: Mapping[str, tuple[int, str]] = {}
     clocks: dict[str, Array] = {}
+    faults: Faults = {}
     try:
         values = _numbers(form, rows)
     except ValueError as error:
         words = _of_words(form, rows)
         names = [name for name in form.names if name not in words]
-        if not words or not names:
+        if not names:
             _find_fault(layout, rows, str(error))
         clocks = {name: _times(form, rows, name) for name, (_, first) in words.items() if is_clock_time(first)}
         words = {name: first for name, first in words.items() if name not in clocks}
         notes = (*notes, *read_as_seconds(file, clocks), *left_out(file, words))
-        try:
-            values = _numbers(form, rows, [form.names.index(name) for name in names])
-        except ValueError as other:
-            _find_fault(layout, rows, str(other), {*words, *clocks})
+        values, faults = _usable(layout, rows, names, {*words, *clocks})
+        names = [name for name in names if name not in faults]
+        notes = (*notes, *broken_off(faults))
     if len(values) != rows:
         _find_fault(layout, rows, "a line is empty")
     if values.shape[1] != len(names):
         _find_fault(layout, rows, f"{values.shape[1]} fields a row, {len(names)} names")
     columns: dict[str, Array] = dict(zip(names, np.ascontiguousarray(values.T), strict=True)) | clocks
-    return Recording(file, columns, digest(path), layout.place, notes, words)
+    return Recording(file, columns, digest(path), layout.place, notes, words, faults)
 
 
 def _numbers(form: Form, rows: int, columns: Sequence[int] | None = None) -> Array:
@@ -163,26 +167,60 @@ def _layout(file: str, path: Path) -> _Layout:
     return layout
 
 
-def _find_fault(layout: _Layout, rows: int, problem: str, words: Collection[str] = ()) -> NoReturn:
-    """Raises InputError at the first field that is not a number, but for columns of ``words``."""
+def _usable(layout: _Layout, rows: int, names: Sequence[str], others: Collection[str]) -> tuple[Array, Faults]:
+    """The numbers (N x c) of those of the columns ``names`` that hold numbers alone, and what is wrong with each of the
+    rest; raises InputError where none are left, or rows have not one field for each name.
+
+    Where there are ``others``, of words, each row is known to have as many fields as there are names.
+    """
+    form = layout.form
+    with suppress(ValueError):
+        if others:
+            return _numbers(form, rows, [form.names.index(name) for name in names]), {}
+    faults = _faults(layout, rows, others)
+    sound = [form.names.index(name) for name in names if name not in faults]
+    if not sound:
+        _find_fault(layout, rows, "no column holds numbers alone")
+    try:
+        return _numbers(form, rows, sound), faults
+    except ValueError as error:
+        _find_fault(layout, rows, str(error))
+
+
+def _find_fault(layout: _Layout, rows: int, problem: str) -> NoReturn:
+    """Raises InputError at the first field that is not a number, or at the file where all are."""
+    for fault in _faults(layout, rows).values():
+        raise fault
+    raise InputError(Place(layout.file), problem, "rows of numbers under a header")
+
+
+def _faults(layout: _Layout, rows: int, others: Collection[str] = ()) -> Faults:
+    """What is wrong with the first field that is not a number of each column but ``others``, in the order of rows;
+    raises InputError where a row is empty, and where one has another number of fields than there are names.
+    """
     form, mark = layout.form, ""
+    faults: Faults = {}
     for row, text in enumerate(islice(form.lines(), rows)):
         line = form.header + row + 2
         if not text.strip():
             raise InputError(Place(layout.file, line), "the line is empty", "a row of numbers")
         fields = split(text, form.separator)
         for name, field in zip(form.names, fields, strict=False):
-            if name in words:
+            if name in others or name in faults:
                 continue
             mark = mark or decimal_mark(field)
+            problem = f"{name} is {field.strip()!r}" if field.strip() else f"{name} is missing"
             if not form.is_number(field):
-                problem = f"{name} is {field.strip()!r}" if field.strip() else f"{name} is missing"
                 units = row == 0 and not any(map(form.is_number, fields)) and not re.search(r"\d", text)
-                raise InputError(layout.place(row, name), problem, _NO_UNITS if units else "a number")
-            if form.separator != "," and other_marks(field, mark):
-                problem = f"{name} is {field.strip()!r}"
-                raise InputError(layout.place(row, name), problem, f"a number with {mark!r}, as in the rows before")
+                expected = _NO_UNITS if units else "a number"
+            elif form.separator != "," and other_marks(field, mark):
+                expected = f"a number with {mark!r}, as in the rows before"
+            else:
+                continue
+            faults[name] = InputError(layout.place(row, name), problem, expected)
         if len(fields) != len(form.names):
+            for fault in faults.values():
+                raise fault
             problem = f"{len(fields)} fields in a row, {len(form.names)} names in the header"
             raise InputError(Place(layout.file, line), problem, _INCOMPLETE if len(fields) < len(form.names) else _MORE)
-    raise InputError(Place(layout.file), problem, "rows of numbers under a header")
+    return faults

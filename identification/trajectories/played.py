@@ -13,7 +13,7 @@ from identification import checks, readers
 from identification.arrays import Array
 from identification.corrections import true_positions
 from identification.recording import Recording
-from identification.signals import measured
+from identification.signals import measured, sound
 from identification.timing import clock
 from identification.trajectory import Reference, Setting, Task, Trajectory, Unplanned, Value, ends_of
 
@@ -60,7 +60,7 @@ def _read(settings: Mapping[str, Value]) -> Recording:
     file = str(settings["file"])
     if not file:
         raise Unplanned("no file is played", "--set file=RUN")
-    return readers.read(Path(file))
+    return sound(readers.read(Path(file)))
 
 
 def _inside(task: Task, recording: Recording, names: tuple[str, ...], q: Array) -> None:
