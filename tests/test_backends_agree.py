@@ -151,7 +151,7 @@ def test_c_through_casadi(emitted: Emitted) -> None:
 
 @pytest.mark.parametrize(
     "robot_arm",
-    [name if name in OPTIMISED else pytest.param(name, marks=pytest.mark.long) for name in (*FILES, EVERY)],
+    [EVERY, *(pytest.param(name, marks=pytest.mark.long) for name in FILES)],
     indirect=True,
 )
 def test_self_test_under_sanitizers(emitted: Emitted) -> None:

@@ -84,7 +84,8 @@ def test_the_code_is_generated_and_the_gap_closes_on_the_untouched_run(case: tup
 
 
 @pytest.mark.parametrize(
-    ("prior", "stiffness"), [(None, 1e6), pytest.param("a", 1e6, marks=pytest.mark.long), ("b", 3e6)]
+    ("prior", "stiffness"),
+    [(None, 1e6), pytest.param("a", 1e6, marks=pytest.mark.long), pytest.param("b", 3e6, marks=pytest.mark.long)],
 )
 def test_the_flexible_set_has_the_stiffness_of_the_prior(prior: str | None, stiffness: float, tmp_path: Path) -> None:
     """In the place of that of an earlier diagnosis."""

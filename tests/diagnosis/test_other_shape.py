@@ -123,7 +123,7 @@ RIGHT = "  - {effect: stribeck_friction, joint: 2, values: {vs: 0.15 rad/s}}\n"
             stribeck, SLOW.replace("0.6", "0.002"), {"vs": pytest.approx(0.15, rel=0.05)}, marks=pytest.mark.long
         ),
         pytest.param(stribeck, RIGHT, {}, marks=pytest.mark.long),
-        (one_way, RIGHT, {}),
+        pytest.param(one_way, RIGHT, {}, marks=pytest.mark.long),
     ],
 )
 def test_wrong_shapes_are_found_and_right_ones_stay(

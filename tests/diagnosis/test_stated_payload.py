@@ -93,9 +93,10 @@ def test_a_payload_that_is_as_stated_is_nothing(known: str | None, tmp_path: Pat
     assert diagnosis_of(sources, regressors, known).verdict == NOTHING
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("gains", "found"),
-    [((1.15, 1.15), {0: 0.15}), pytest.param((1.15, 1.25), {1: 0.15, 2: 0.25}, marks=pytest.mark.long)],
+    [((1.15, 1.15), {0: 0.15}), ((1.15, 1.25), {1: 0.15, 2: 0.25})],
 )
 def test_gains_are_not_taken_for_a_payload(gains: Sequence[float], found: dict[int, float], tmp_path: Path) -> None:
     """Known values tell that the payload is as stated: one error of all motors, or of each."""

@@ -38,7 +38,7 @@ AT_LEAST = {
 }
 
 
-@pytest.fixture(scope="module", params=["kr500", "kr270"])
+@pytest.fixture(scope="module", params=["kr500", pytest.param("kr270", marks=pytest.mark.long)])
 def compared(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> tuple[Chain, Path]:
     """A robot, and the folder that its libraries are in."""
     return Chain(request.param), tmp_path_factory.mktemp("ratios") / request.param
