@@ -14,7 +14,7 @@ from identification.corrections import earlier, recorded_motor_torques
 from identification.diagnosis.candidates.torque_delay import _quieter
 from identification.diagnosis.columns.bank import Variant
 from identification.diagnosis.columns.hypothesis import Coefficient, Hypothesis
-from identification.diagnosis.columns.lateness import Lateness, delay_of, latenesses
+from identification.diagnosis.columns.lateness import Lateness, closer, delay_of, latenesses
 from identification.diagnosis.diagnosis import NAMED, NOTHING, Diagnosis
 from identification.diagnosis.runs.scene import Scene
 from identification.drive_train import coupling
@@ -135,11 +135,34 @@ def test_a_delay_is_as_uncertain_as_coloured_noise_leaves_it(tmp_path: Path) -> 
             source = Recorded({"t": t, "q1": motion.q[0], "tau1": (tau + 0.7 * noise / noise.std())[0]})
             run = ready(str(source.save(tmp_path / f"{number}.csv")), regressors)
             scenes.append(Scene(run.sampled, regressors, LINK))
-        found = delay_of(latenesses(scenes)[0])
+        found = delay_of(latenesses(scenes).own)
         assert found is not None
         assert found.std is not None
         off.append(((found.value or 0.0) - delay) / found.std)
     assert 0.5 < np.sqrt(np.mean(np.square(off))) < 1.7
+
+
+def test_all_motors_at_once_tell_their_delay_more_closely(tmp_path: Path) -> None:
+    """Than each by itself: they have parameters in common."""
+    (tmp_path / "two_links.yaml").write_text(TWO_LINKS)
+    robot, draw = read(tmp_path / "two_links.yaml"), np.random.default_rng(1)
+    regressors, delay, apart, at_once = Regressors(robot), 0.004, [], []
+    for number in range(6):
+        t, motion = fourier(robot, 20.0, 125.0, number)
+        tau = regressors.torques(TRUTH, motion)
+        tau = earlier(tau, [-delay, -delay], 0.008) + 0.002 * tau.std() * draw.normal(size=tau.shape)
+        columns = {"t": t, "q1": motion.q[0], "q2": motion.q[1], "tau1": tau[0], "tau2": tau[1]}
+        run = ready(str(Recorded(columns).save(tmp_path / "a.csv")), regressors)
+        late = latenesses([Scene(run.sampled, regressors, TRUTH)])
+        for told, kept in ((closer(late.own, delay), apart), (closer(late.together, delay), at_once)):
+            assert told is not None
+            kept.append([(told.value or 0.0) - delay, told.std])
+    (far, wide), (off, std) = np.array(apart).T, np.array(at_once).T
+    assert np.mean(std) < 0.85 * np.mean(wide)
+    assert np.mean(off**2) < 0.5 * np.mean(far**2)
+    assert 0.4 < np.sqrt(np.mean((off / std) ** 2)) < 1.8
+    assert closer(late.together, 5 * delay) is None
+    assert closer([None], delay) is None
 
 
 def profile(delay: float, depth: float) -> Lateness:
@@ -212,10 +235,10 @@ def test_motors_whose_rows_are_too_few_tell_one_delay_together(tmp_path: Path) -
     q = coupling(robot) @ motion.q
     columns = {"t": t, "qm1": q[0], "qm2": q[1], "taum1": motors[0], "taum2": motors[1]}
     run = ready(str(Recorded(columns).save(tmp_path / "short.csv")), regressors)
-    own, as_late = latenesses([Scene(run.sampled, regressors, TRUTH)])
-    assert own[0] is None
-    assert None not in as_late
-    found = delay_of(as_late)
+    late = latenesses([Scene(run.sampled, regressors, TRUTH)])
+    assert late.own[0] is None
+    assert None not in late.shared
+    found = delay_of(late.shared)
     assert found is not None
     assert found.value == pytest.approx(delay, abs=1e-3)
 

@@ -17,12 +17,22 @@ from identification.arrays import Array
 from identification.corrections import earlier
 from identification.diagnosis.columns.confirmed import confirmed
 from identification.diagnosis.columns.hypothesis import BEYOND, SIGNAL, Coefficient, Hypothesis
-from identification.diagnosis.columns.lateness import LONGEST, Lateness, delay_of, latenesses, torques
+from identification.diagnosis.columns.lateness import (
+    LONGEST,
+    Lateness,
+    Latenesses,
+    closer,
+    delay_of,
+    latenesses,
+    torques,
+)
 from identification.diagnosis.runs.prepared import windowed
 from identification.diagnosis.runs.scene import Scene
 from identification.drive_train import supplied
 from identification.outcome import Value
 
+#: Part of a delay to which rows must tell it, where they do not tell that there is one.
+_CLOSELY = 0.1
 #: Noise of the record's own in a column, in parts of what the delay makes of it, that it may have.
 _NOISY = 1.0
 
@@ -45,15 +55,25 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
     if not scenes:
         return []
     moving = scenes[0].robot.moving
-    late, as_late = latenesses(scenes)
-    shared = delay_of(as_late)
+    late = latenesses(scenes)
+    shared = _shared(late, scenes[0].found(_name(None)))
     start = scenes[0].found(_name(None)) if shared is None else _value(shared)
-    each = [delay_of([one], start) for one in late]
+    each = [delay_of([one], start) for one in late.own]
     whole = [start + _value(beyond) for beyond in each]
-    together = None if shared is None else _Told(shared, as_late, whole)
-    told = [None if one is None else _Told(one, late, whole) for one in each]
+    together = None if shared is None else _Told(shared, late.shared, whole)
+    told = [None if one is None else _Told(one, late.own, whole) for one in each]
     own = [_hypothesis(scenes, (joint,), k, start if told[k] else 0.0, told[k]) for k, joint in enumerate(moving)]
     return [_hypothesis(scenes, moving, None, 0.0, together), *(own if len(moving) > 1 else ())]
+
+
+def _shared(late: Latenesses, found: float) -> Value | None:
+    """The delay of all motors, where their rows tell it, or tell closely the one that was ``found`` [s] otherwise."""
+    told = delay_of(late.shared)
+    about = found if told is None else _value(told)
+    close = closer(late.together, about) if about else None
+    if close is None or (told is None and not _CLOSELY * abs(_value(close)) > close.std):
+        return told
+    return close
 
 
 def _hypothesis(

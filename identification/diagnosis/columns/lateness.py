@@ -9,8 +9,8 @@ motors are fitted at once at every one that they may have in common.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import partial
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -38,6 +38,10 @@ _SEVERAL, _EACH, _SHARED = 2, 0.985, 0.5
 _CHANCE, _OF_ROWS, _OF_GAIN, _DEVIATIONS = 4.0, 0.1, 0.5, 4.0
 #: Least rows for each base parameter, and of a motor fitted with others; least singular value of scaled columns.
 _ROWS, _AMONG, _RANK = 5, 2, 1e-6
+#: Rows within each that is taken elsewhere.
+_CLOSE = 2
+#: How far from a delay it may be told more closely, in parts of it.
+_NEAR = 0.3
 #: Times that motors fitted at once are weighed by what each leaves.
 _WEIGHED = 4
 #: Part of a torque's square that is rounding.
@@ -47,8 +51,8 @@ _ROUNDING = 1e-12
 @dataclass(frozen=True)
 class Lateness:
     """Of one motor's ``rows``: ``values`` (p x D) of the base parameters ``names``, and the sums of squares ``left``
-    (D), where its torque is late by ``delays`` [s] (D). What the best one leaves tells of it as white rows would of
-    ``colour`` times the variance.
+    (D), where its torque is late by ``delays`` [s] (D). What the best one leaves tells of it as so many white rows
+    would of ``colour`` times the variance.
     """
 
     delays: Array
@@ -85,16 +89,38 @@ def delay_of(among: Sequence[Lateness | None], start: float = 0.0) -> Value | No
     enough = max(sum(one.rows for one in known) * -np.log(_LESS), _SHARED * most, _taken(known))
     if not 0 < least < len(delays) - 1 or telling < min(len(among), _SEVERAL) or np.sum(gains) < enough:
         return None
+    found = _between(known, least)
+    if found is None or found.value is None or abs(found.value - start) < _TOLD * (delays[1] - delays[0]):
+        return None
+    return replace(found, value=found.value - start)
+
+
+def closer(among: Sequence[Lateness | None], about: float) -> Value | None:
+    """The one delay of motors that were fitted at once, where they leave least next to ``about`` [s]; None where they
+    leave less far from it.
+    """
+    known = [one for one in among if one is not None]
+    if not known:
+        return None
+    cost = np.sum([one.cost for one in known], axis=0)
+    inner = np.flatnonzero((cost[1:-1] <= cost[:-2]) & (cost[1:-1] <= cost[2:])) + 1
+    least = min(inner.tolist(), key=lambda k: abs(known[0].delays[k] - about), default=0)
+    far = abs(known[0].delays[least] - about) > max(_NEAR * abs(about), _STEP)
+    return None if far or not least else _between(known, least)
+
+
+def _between(known: Sequence[Lateness], least: int) -> Value | None:
+    """The delay of some motors about the one of those tried at which they leave ``least``; None where none is."""
     # Squares bend as those of a sine do; their logarithm has a sharper tip.
     squares = np.array([one.rows * one.left[least - 1 : least + 2] / one.left[least] for one in known])
-    (before, _, after), bends, step = squares.sum(axis=0), np.diff(squares, 2)[:, 0], delays[1] - delays[0]
+    (before, _, after), bends = squares.sum(axis=0), np.diff(squares, 2)[:, 0]
     if not bends.sum() > 0:
         return None
-    delay = delays[least] + step * (before - after) / (2 * bends.sum())
-    if abs(delay - start) < _TOLD * step:
-        return None
+    delays = known[0].delays
+    step = delays[1] - delays[0]
     variance = 2 * np.maximum(bends, 0.0) @ [one.colour for one in known] / bends.sum() ** 2
-    return Value(float(delay - start), float(step * np.hypot(np.sqrt(variance), _TOLD)), "s")
+    delay = delays[least] + step * (before - after) / (2 * bends.sum())
+    return Value(float(delay), float(step * np.hypot(np.sqrt(variance), _TOLD)), "s")
 
 
 def _taken(among: Sequence[Lateness]) -> float:
@@ -117,17 +143,33 @@ def _nearest(beyond: Array, cost: Array, rows: int) -> int:
     return min(among, key=lambda k: abs(beyond[k]), default=int(np.argmin(cost)))
 
 
-def latenesses(scenes: Sequence[Scene]) -> tuple[list[Lateness | None], list[Lateness | None]]:
-    """Of each motor along the runs: late by itself, None where its rows are too few; and as late as all others, which
-    is the same where several have rows enough, and None where all together have too few.
-    """
+@dataclass(frozen=True)
+class Latenesses:
+    """Of each motor along the runs: ``own`` of its rows by themselves, None where they are too few."""
+
+    delays: Array
+    motors: Sequence[_Motor]
+    own: Sequence[Lateness | None]
+
+    @property
+    def shared(self) -> Sequence[Lateness | None]:
+        """As late as all others: ``own`` where several have rows enough, else ``together``."""
+        known = sum(late is not None for late in self.own)
+        return self.own if known >= min(len(self.own), _SEVERAL) else self.together
+
+    @cached_property
+    def together(self) -> Sequence[Lateness | None]:
+        """By all rows at once; None where these are too few."""
+        return _together(self.delays, self.motors)
+
+
+def latenesses(scenes: Sequence[Scene]) -> Latenesses:
+    """How late motors are along the runs of ``scenes``."""
     last = int(min(LONGEST, _OF_RUN * min(scene.motion.samples * scene.period for scene in scenes)) / _STEP)
     delays: Array = _STEP * np.arange(-last, last + 1, dtype=float)
     runs = [_Run(scene, delays) for scene in scenes]
     motors = [_rows(runs, k) for k in range(len(scenes[0].robot.moving))]
-    own = [_fitted(delays, motor) for motor in motors]
-    known = sum(late is not None for late in own)
-    return own, own if known >= min(len(own), _SEVERAL) else _together(delays, motors)
+    return Latenesses(delays, motors, [_fitted(delays, motor) for motor in motors])
 
 
 def torques(scene: Scene, late: Sequence[Lateness | None], delays: Sequence[float], motors: Sequence[int]) -> Array:
@@ -146,7 +188,8 @@ def torques(scene: Scene, late: Sequence[Lateness | None], delays: Sequence[floa
 class _Motor:
     """Base columns ``W`` (p x N) of motor k's kept rows and its torque ``Y`` by each delay (D x N) [N m, N].
 
-    The columns are those of the base parameters ``numbers``, called ``names``.
+    The columns are those of the base parameters ``numbers``, called ``names``. A row tells a ``part`` of what one would
+    that shares no sample with others.
     """
 
     k: int
@@ -154,6 +197,12 @@ class _Motor:
     names: tuple[str, ...]
     W: Array
     Y: Array
+    part: float
+
+    @property
+    def rows(self) -> int:
+        """Rows that share no sample, of which there are as many."""
+        return int(self.part * self.W.shape[1])
 
     @property
     def acts(self) -> bool:
@@ -164,14 +213,14 @@ def _rows(runs: Sequence[_Run], k: int) -> _Motor:
     """Of motor k in all runs."""
     numbers = runs[0].numbers(k)
     W, Y = (np.concatenate(parts, axis=1) for parts in zip(*(run.rows(k) for run in runs), strict=True))
-    return _Motor(k, numbers, tuple(runs[0].scene.regressors.names[number] for number in numbers), W, Y)
+    names = tuple(runs[0].scene.regressors.names[number] for number in numbers)
+    return _Motor(k, numbers, names, W, Y, runs[0].part)
 
 
 def _fitted(delays: Array, motor: _Motor) -> Lateness | None:
     """By its own rows."""
     W, Y = motor.W, motor.Y
-    count = W.shape[1]
-    if not motor.acts or count < _ROWS * len(W):
+    if not motor.acts or motor.rows < _ROWS * len(W):
         return None
     size = np.linalg.norm(W, axis=1)
     size[size == 0] = 1.0
@@ -182,15 +231,15 @@ def _fitted(delays: Array, motor: _Motor) -> Lateness | None:
     power = np.sum(Y**2, axis=1)
     squares = np.maximum(power - np.sum(parts**2, axis=0), _ROUNDING * power.max())
     best = int(np.argmin(squares))
-    colour = inflation(Y[best] - parts[:, best] @ right[seen])
-    return Lateness(delays, motor.names, solution, squares, count, colour)
+    colour = motor.part * inflation(Y[best] - parts[:, best] @ right[seen])
+    return Lateness(delays, motor.names, solution, squares, motor.rows, colour)
 
 
 def _together(delays: Array, motors: Sequence[_Motor]) -> list[Lateness | None]:
     """By all rows at once, each motor weighed by what it leaves; None of those whose few rows fit whatever acts."""
-    acting = [motor for motor in motors if motor.acts and motor.W.shape[1] >= _AMONG * len(motor.W)]
+    acting = [motor for motor in motors if motor.acts and motor.rows >= _AMONG * len(motor.W)]
     numbers = sorted({number for motor in acting for number in motor.numbers})
-    if sum(motor.W.shape[1] for motor in acting) < max(_ROWS * len(numbers), 1):
+    if sum(motor.rows for motor in acting) < max(_ROWS * len(numbers), 1):
         return [None] * len(motors)
     places = [np.searchsorted(numbers, motor.numbers) for motor in acting]
     power = np.array([np.sum(motor.Y**2, axis=1) for motor in acting])
@@ -202,7 +251,7 @@ def _together(delays: Array, motors: Sequence[_Motor]) -> list[Lateness | None]:
         left = np.maximum(squares, _ROUNDING * power.max(axis=1, keepdims=True))
     best = int(np.argmin([e.shape[1] for e in errors] @ np.log(left)))
     told = {
-        motor.k: Lateness(delays, motor.names, solution[:, at].T, squares, e.shape[1], inflation(e[best]))
+        motor.k: Lateness(delays, motor.names, solution[:, at].T, squares, motor.rows, motor.part * inflation(e[best]))
         for motor, at, squares, e in zip(acting, places, left, errors, strict=True)
     }
     return [told.get(motor.k) for motor in motors]
@@ -225,17 +274,22 @@ class _Run:
 
     def __init__(self, scene: Scene, delays: Array) -> None:
         self.scene, factor = scene, scene.sampled.filters.factor
-        self._base = base_rows(partial(windowed, factor=factor), scene)
+        # Noise and its own rate of change are unlike at each moment and alike on the average, which needs rows as close
+        # as their product changes: a window that passes up to one frequency makes products of up to twice as much.
+        apart = max(1, factor // _CLOSE)
+        self.part = apart / factor
+        rows = partial(windowed, factor=factor, apart=apart)
+        self._base = base_rows(rows, scene)
         shifts = delays / scene.period
-        out = windowed(scene.sampled.left_out.astype(float), factor) > 0
-        at = factor * np.arange(1, out.shape[1] + 1)
+        out = rows(scene.sampled.left_out.astype(float)) > 0
+        at = factor + apart * np.arange(out.shape[1])
         inside = (at + shifts[0] >= factor) & (at + shifts[-1] < scene.motion.samples - factor)
         self._kept = ~out & inside
         self._at = at, shifts
         #: Of the joints' torques in each motor's (n x n).
         self._share = np.linalg.inv(coupling(scene.robot).T)
         # What acts beside the model is along the motion, which is not late.
-        self._beside = windowed(scene.carried(scene.motion) + scene.torque - scene.model_torque, factor)
+        self._beside = rows(scene.carried(scene.motion) + scene.torque - scene.model_torque)
 
     def rows(self, k: int) -> tuple[Array, Array]:
         """Kept rows of the base columns of motor k (p x N) and of its torque by each delay (D x N) [N m, N]."""

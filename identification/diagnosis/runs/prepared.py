@@ -169,11 +169,18 @@ def _decimation(wanted: float, period: int, count: int) -> tuple[int, int]:
     return usual, 0
 
 
-def windowed(x: Array, factor: int) -> Array:
-    """Every ``factor``-th sample of ``x``, from number ``factor`` to as far from the end, under a Hann window."""
-    count = (x.shape[-1] - 1 - 2 * factor) // factor + 1
-    result = signal.upfirdn(window(factor), x, 1, factor, axis=-1)
-    return np.asarray(result[..., 2 : 2 + count])
+def windowed(x: Array, factor: int, apart: int = 0) -> Array:
+    """Every ``factor``-th sample of ``x``, from number ``factor`` to as far from the end, under a Hann window; every
+    one of so many ``apart`` where that is not 0.
+    """
+    step = apart or factor
+    count = (x.shape[-1] - 1 - 2 * factor) // step + 1
+    before = -2 * factor % step
+    if before:
+        x = np.concatenate([np.zeros((*x.shape[:-1], before)), x], axis=-1)
+    first = (2 * factor + before) // step
+    result = signal.upfirdn(window(factor), x, 1, step, axis=-1)
+    return np.asarray(result[..., first : first + count])
 
 
 def window(factor: int) -> Array:
