@@ -35,6 +35,7 @@ EFFECT = Effect(
     rank=81,
     resembles=dict.fromkeys(
         ("motor_ripple", "wave_generator_ripple"),
-        "the gear's maker: with as many periods a turn they are one torque, but for a coupled wrist's",
+        "what the gear's maker tells of it: where both have as many periods a turn they are one torque, but for a "
+        "coupled wrist's",
     ),
 )

@@ -23,5 +23,7 @@ EFFECT = Effect(
         "and Automation 12, 1996"
     ),
     rank=82,
-    resembles={"motor_ripple": "the gear's maker: with as many periods a turn they are one torque"},
+    resembles={
+        "motor_ripple": "what the gear's maker tells of it: where both have as many periods a turn they are one torque"
+    },
 )

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from identification.diagnosis.search.beyond_laws import BeyondLaws
+from identification.outcome import Value
 from tests.diagnosis.drawn_data import Data, fixed, names
 from tests.diagnosis.drawn_data import search as searched
 from tests.diagnosis.laws import variant
@@ -33,6 +34,21 @@ def explains(one: Any, beside: Any, falls: tuple[float, ...], left: float = 2000
     normal = SimpleNamespace(by_number=lambda columns: dict.fromkeys(columns, 0.0))
     laws = BeyondLaws(SimpleNamespace(left_over=left_over), normal, (0,))  # type: ignore[arg-type]
     return laws.explains(one, sum(falls), [beside], [1e6])
+
+
+@pytest.mark.parametrize(
+    ("told", "right"),
+    [
+        (None, True),
+        # To a part of 0.001 of its squares at least, and to one of 0.006; it explains 1e6, and the 2000 left all go.
+        (Value(0.018, 0.0001, "s"), True),
+        (Value(0.004, 0.0001, "s"), False),
+    ],
+)
+def test_what_the_value_of_another_fit_leaves_is_none_of_another_law(told: Value | None, right: bool) -> None:
+    delay = variant("torque_delay", (0,), "frequency", {} if told is None else {"torque_delay1": told})
+    assert explains(variant("dahl_friction", (0,), "q by direction"), delay, (2000.0,), 2000.0) is right
+    assert not explains(variant("dahl_friction", (0,), "q by direction"), delay, (900.0,), 900.0) or told is None
 
 
 @pytest.mark.parametrize(("falls", "right"), [((0.0, 400.0), True), ((300.0, 100.0), False)])

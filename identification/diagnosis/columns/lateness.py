@@ -112,14 +112,18 @@ def closer(among: Sequence[Lateness | None], about: float) -> Value | None:
 def _between(known: Sequence[Lateness], least: int) -> Value | None:
     """The delay of some motors about the one of those tried at which they leave ``least``; None where none is."""
     # Squares bend as those of a sine do; their logarithm has a sharper tip.
-    squares = np.array([one.rows * one.left[least - 1 : least + 2] / one.left[least] for one in known])
-    (before, _, after), bends = squares.sum(axis=0), np.diff(squares, 2)[:, 0]
+    squares = np.array([one.rows * one.left / one.left[least] for one in known])
+    bends = np.diff(squares[:, least - 1 : least + 2], 2)[:, 0]
     if not bends.sum() > 0:
         return None
     delays = known[0].delays
     step = delays[1] - delays[0]
     variance = 2 * np.maximum(bends, 0.0) @ [one.colour for one in known] / bends.sum() ** 2
-    delay = delays[least] + step * (before - after) / (2 * bends.sum())
+    slope = CubicSpline(delays, squares.sum(axis=0)).derivative()
+    level = slope.roots(extrapolate=False)
+    delay = min(
+        level[np.abs(level - delays[least]) < step], key=lambda x: abs(x - delays[least]), default=delays[least]
+    )
     return Value(float(delay), float(step * np.hypot(np.sqrt(variance), _TOLD)), "s")
 
 

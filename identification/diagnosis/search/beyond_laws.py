@@ -19,6 +19,9 @@ _MOST = 0.5
 #: Parts of what is left of its joints, beyond noise, between which what it explains is all of that: beyond, it explains
 #: noise.
 _ALL, _TWICE = 0.9, 2.0
+#: Standard deviations by which a value that another fit tells may be off; part of what it explains that it leaves at
+#: least.
+_DEVIATIONS, _LEFT = 3.0, 1e-3
 
 
 @dataclass(frozen=True)
@@ -39,6 +42,8 @@ class BeyondLaws:
         hiding = [(one, theirs, lack) for one, theirs, lack in each if lack > drop]
         if not hiding or any(lack > BESIDE * theirs for _, theirs, lack in hiding):
             return False
+        if any(drop < _of_its_value(one) * theirs for one, theirs, _ in hiding):
+            return False
         before = self.normal.by_number(columns_of(others))
         left = sum(self._beyond_noise(before, k) for k in variant.coordinates)
         own = _of_whole_orders(variant) or all(lack <= ELSE * theirs for _, theirs, lack in hiding)
@@ -57,3 +62,9 @@ class BeyondLaws:
 
 def _of_whole_orders(variant: Variant) -> bool:
     return any(shape.whole for shape in variant.hypothesis.shapes)
+
+
+def _of_its_value(one: Variant) -> float:
+    """Part of what a variant explains that it leaves where it is told by another fit, as closely as that tells it."""
+    told = [value for value in one.hypothesis.preset.values() if value.value]
+    return max((max((_DEVIATIONS * value.std / (value.value or 1.0)) ** 2, _LEFT) for value in told), default=0.0)
