@@ -51,7 +51,10 @@ def test_a_brake_that_drags_once_is_unexplained_where_it_drags(tmp_path: Path) -
     for where in (found.before, found.after):
         assert (where.joint, where.variable) == (1, "time")
         assert where.region == f"once, from {one.when}"
-    assert any("as in no other period of the motion: these rows are left out" in note for note in found.notes)
+    assert any(
+        "of all other periods of the motion, as of a disturbance: these rows are left out" in note
+        for note in found.notes
+    )
 
 
 def test_a_brake_that_drags_twice_is_told_to_do_so(tmp_path: Path) -> None:

@@ -103,7 +103,12 @@ def test_a_short_stroke_of_a_slide_counts_beside_a_wide_turn() -> None:
     ("name", "period", "rows", "note"),
     [
         ("A", 2000, 200, ""),
-        ("A", 2003, 0, "repeats after 2003 samples: periods are not compared; of a multiple of 10 they would be"),
+        (
+            "A",
+            2003,
+            0,
+            "repeats after 2003 samples: periods are not compared; after a multiple of 10, such as 2010, they would be",
+        ),
         ("A", 0, 0, "does not repeat, or not after a whole number of samples"),
         ("A@:12", 0, 0, "shows no two periods in a part of it"),
     ],

@@ -20,7 +20,7 @@ from generator.derivation import derive
 from generator.robot.description import Robot
 from generator.symbolic.model import Model
 from identification.arrays import Array
-from identification.diagnosis.columns.hypothesis import BASE, Coefficient, Hypothesis
+from identification.diagnosis.columns.hypothesis import BASE, PRIOR, Coefficient, Hypothesis
 from identification.diagnosis.runs.scene import Scene
 from identification.observation import generated_module
 
@@ -61,7 +61,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
             kind=BASE,
             joints=robot.numbers,
             variable="q",
-            would_show="known inertial parameters (--prior), and the first joint turned over its whole range",
+            would_show=f"{PRIOR}, and the first joint turned over its whole range",
             separating={
                 "position_offset": "a level on the base; a tilt turns with the first joint, an offset does not",
                 "offset": "the first joint turned over its whole range: a tilt's torque changes its sign",

@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 
 from identification.arrays import Array
-from identification.diagnosis.columns.hypothesis import DRIVE, Coefficient, Hypothesis
+from identification.diagnosis.columns.hypothesis import DRIVE, PRIOR, Coefficient, Hypothesis
 from identification.diagnosis.runs.perturbation import scaled, sensitivity
 from identification.diagnosis.runs.scene import Scene
 from identification.observation import Motion
@@ -37,7 +37,7 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
             kind=DRIVE,
             joints=(joint.number,),
             variable="load",
-            would_show="known inertial parameters (--prior) and motion over the joint's whole range",
+            would_show=f"{PRIOR} and motion over the joint's whole range",
             separating={
                 "torque_gain": "a known angle at the joint: a wrong ratio turns it too far, a wrong gain does not",
                 "position_offset": "positions on both sides of the encoder's zero, and a measured angle between two",

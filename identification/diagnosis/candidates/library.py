@@ -14,7 +14,7 @@ from generator.robot.description import Joint, Robot
 from identification.arrays import Array
 from identification.corrections import by_heat
 from identification.diagnosis.columns.effect_columns import NEEDS, EffectColumns
-from identification.diagnosis.columns.hypothesis import SINCE_REVERSAL, Coefficient, Hypothesis, ShapeRange
+from identification.diagnosis.columns.hypothesis import PRIOR, SINCE_REVERSAL, Coefficient, Hypothesis, ShapeRange
 from identification.diagnosis.columns.orders import LOWEST, likely_orders
 from identification.diagnosis.columns.warming import warm_up_times
 from identification.diagnosis.runs.rotor import rotor_inertia, usual_rotor
@@ -215,9 +215,9 @@ def _would_show(effect: Effect) -> str:
     """What data show an effect that a fit has taken up."""
     shows: Mapping[str, str] = {
         "qd": "slow and fast parts in both directions of the joint",
-        "q": "a larger range of the joint, or known inertial parameters (--prior)",
-        "qdd": "stronger accelerations, or known inertial parameters (--prior)",
-        "torque": "motion in both directions, or known parameters (--prior)",
+        "q": f"a larger range of the joint, or {PRIOR}",
+        "qdd": f"stronger accelerations, or {PRIOR}",
+        "torque": f"motion in both directions, or {PRIOR}",
         "load": "the same motion with and without a payload",
         "time": "one long run after a cold start",
         "motor phase": "slow motion at constant speed",

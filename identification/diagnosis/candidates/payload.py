@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from identification.arrays import Array
-from identification.diagnosis.columns.hypothesis import BODY, Hypothesis
+from identification.diagnosis.columns.hypothesis import BODY, PRIOR, Hypothesis
 from identification.diagnosis.columns.payload_body import COEFFICIENTS, columns
 from identification.diagnosis.runs.scene import Scene
 
@@ -24,8 +24,8 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
             kind=BODY,
             joints=scenes[0].robot.numbers,
             variable="q",
-            would_show="known inertial parameters (--prior): in a free fit the parameters of the last bodies take it "
-            "up; of runs with and without a payload, counterpoise identify finds what the sidecars call unknown",
+            would_show=f"{PRIOR}: where they are free, the parameters of the last bodies take it up; "
+            "of runs with and without a payload, counterpoise identify finds what the sidecars call unknown",
             separating={
                 "spring_balancer": "a run with another payload: a balancer does not change with it",
                 "gas_balancer": "a run with another payload: a balancer does not change with it",

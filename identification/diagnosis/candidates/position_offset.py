@@ -9,7 +9,7 @@ import numpy as np
 
 from generator.robot.description import PRISMATIC, Joint
 from identification.arrays import Array
-from identification.diagnosis.columns.hypothesis import BEYOND, SIGNAL, Coefficient, Hypothesis
+from identification.diagnosis.columns.hypothesis import BEYOND, PRIOR, SIGNAL, Coefficient, Hypothesis
 from identification.diagnosis.runs.perturbation import change_of, sensitivity
 from identification.diagnosis.runs.scene import Scene
 
@@ -37,7 +37,7 @@ def _hypothesis(k: int, joint: Joint, stated: bool) -> Hypothesis:
         kind=SIGNAL,
         joints=(joint.number,),
         variable="q",
-        would_show="known inertial parameters (--prior): in a free fit the first moments take an offset up",
+        would_show=f"{PRIOR}: where they are free, the first moments take an offset up",
         separating={
             "base_tilt": "a level on the base; a tilt shows on all joints whose load is weight, an offset on one",
             "payload": "a run with another, known payload: an offset does not change with it",

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from identification.arrays import Array
-from identification.diagnosis.columns.hypothesis import BEYOND, LOAD, Coefficient, Hypothesis
+from identification.diagnosis.columns.hypothesis import BEYOND, LOAD, PRIOR, Coefficient, Hypothesis
 from identification.diagnosis.columns.payload_body import COEFFICIENTS, PARAMETERS, STATED_MASS, beyond, columns, states
 from identification.diagnosis.runs.scene import Scene
 
@@ -26,8 +26,8 @@ def hypotheses(scenes: Sequence[Scene]) -> list[Hypothesis]:
             variable="q",
             given={STATED_MASS: mass},
             units={STATED_MASS: "kg"},
-            would_show="known inertial parameters (--prior), or runs without the payload: in a free fit the parameters "
-            "of the last bodies take up what all runs carry",
+            would_show=f"{PRIOR}, or runs without the payload: where they are free, the parameters of the last "
+            "bodies take up what all runs carry",
             separating={"torque_gain": "a payload that was weighed"},
         )
         for mass in dict.fromkeys(known["M"] for known in carried)

@@ -10,7 +10,7 @@ from functools import partial
 from generator.robot.description import Joint
 from identification.arrays import Array
 from identification.diagnosis.candidates.torque_drift import drift_name
-from identification.diagnosis.columns.hypothesis import BEYOND, SIGNAL, Coefficient, Hypothesis
+from identification.diagnosis.columns.hypothesis import BEYOND, PRIOR, SIGNAL, Coefficient, Hypothesis
 from identification.diagnosis.runs.scene import Scene
 from identification.drive_train import supplied
 
@@ -49,8 +49,7 @@ def _hypothesis(scene: Scene, joints: Sequence[Joint], k: int | None) -> Hypothe
         kind=SIGNAL,
         joints=tuple(one.number for one in joints),
         variable="load",
-        would_show="a known payload, or known inertial parameters (--prior): a free fit scales all parameters of "
-        "the joint",
+        would_show=f"a known payload, or {PRIOR}: where they are free, a fit scales all parameters of the joint",
         separating={
             "payload": "a run with a known payload",
             "stated_payload": "a payload that was weighed",

@@ -30,11 +30,19 @@ LENGTH = "length"
 
 #: How a correction is called that the file has another one of already.
 BEYOND = " beyond the stated one"
+#: What shows an effect that a free fit takes up, as experiments ask for it; and what is left to ask for where they are
+#: known already.
+PRIOR, CLOSER = "known inertial parameters (--prior)", "inertial parameters that are known more closely"
 #: What an effect shows over that changes where a joint turns round.
 SINCE_REVERSAL = "time since reversal"
 
 #: An effect and the number of its joint, 0 for the whole robot.
 Key = tuple[str, int]
+
+
+def asked_for(experiment: str, free: bool) -> str:
+    """An experiment as it is asked for, in words, of a ``free`` fit or of one with known parameters."""
+    return experiment if free else experiment.replace(PRIOR, CLOSER)
 
 
 @dataclass(frozen=True)

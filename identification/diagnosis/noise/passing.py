@@ -55,8 +55,8 @@ class Passing:
     def told(self, robot: Robot) -> str:
         """In a sentence."""
         return (
-            f"from {self.when} the torque of joint {robot.numbers[self.k]} is disturbed, as in no other period of the "
-            "motion: these rows are left out"
+            f"from {self.when} the torque of joint {robot.numbers[self.k]} differs from that of all other periods of "
+            "the motion, as of a disturbance: these rows are left out"
         )
 
 

@@ -97,7 +97,7 @@ class Prepared:
             return "does not repeat, or not after a whole number of samples"
         factor = self.sampled.filters.factor
         if self.repeats % factor:
-            would = f"of a multiple of {factor} they would be"
+            would = f"after a multiple of {factor}, such as {ceil(self.repeats / factor) * factor}, they would be"
             return f"repeats after {self.repeats} samples: periods are not compared; {would}"
         return f"repeats after {self.repeats} samples, too late for its rows to hold two: periods are not compared"
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from identification.diagnosis.columns.hypothesis import LENGTH, SHAPE, VALUE, Hypothesis, Key
+from identification.diagnosis.columns.hypothesis import LENGTH, SHAPE, VALUE, Hypothesis, Key, asked_for
 from identification.diagnosis.search.weighing import Weighing
 
 #: Other values of what the file has: of those there is nothing to be shown.
@@ -34,4 +34,5 @@ def invisible(weighing: Weighing) -> list[Hypothesis]:
     ]
     found = [*taken_up, *(replace(one, would_show=_ELSEWHERE) for one in nowhere)]
     of_one = {effect for effect, joint in (*hidden, *weighing.bank.nowhere) if joint}
-    return [one for one in found if one.joint or one.effect not in of_one]
+    told = [one for one in found if one.joint or one.effect not in of_one]
+    return [replace(one, would_show=asked_for(one.would_show, weighing.free)) for one in told]

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from generator.effects.library import library
 from generator.words import numbered
 from identification.diagnosis.columns.bank import Variant
-from identification.diagnosis.columns.hypothesis import Hypothesis
+from identification.diagnosis.columns.hypothesis import Hypothesis, asked_for
 from identification.diagnosis.search.evidence import Evidence
 from identification.diagnosis.search.selection import Choice
 from identification.diagnosis.search.whole_orders import UNSURE
@@ -22,13 +22,14 @@ OTHER_GEOMETRY, OTHER_BODY = "other_geometry", "other_body"
 _GAIN = "torque_gain"
 
 
-def alternatives(mine: Hypothesis, one: Choice, chosen: Sequence[Variant]) -> tuple[Alternative, ...]:
-    """What explains as much in the place of ``mine``, which is that of a choice among all that were ``chosen``. Of
-    several gains the common part is none: it says the same of all of them.
+def alternatives(mine: Hypothesis, one: Choice, chosen: Sequence[Variant], free: bool) -> tuple[Alternative, ...]:
+    """What explains as much in the place of ``mine``, which is that of a choice among all that were ``chosen`` in a
+    ``free`` fit or one with known parameters. Of several gains the common part is none: it says the same of all.
     """
     gains = [each for each in chosen if each.hypothesis.effect == _GAIN]
     same = _GAIN if len(gains) > 1 and mine.effect == _GAIN else ""
-    found = [_alternative(mine, other) for other in one.alternatives if other.variant.hypothesis.effect != same]
+    others = [other for other in one.alternatives if other.variant.hypothesis.effect != same]
+    found = [_alternative(mine, other, free) for other in others]
     if one.odds < UNSURE:
         title = "ripple whose order is no whole number"
         turns = "more turns of the joint in one run: they tell the order more closely"
@@ -41,9 +42,11 @@ def outside(effect: str, title: str, joints: tuple[int, ...], evidence: Evidence
     return Alternative(effect, title, joints, f"{title} on {numbered('joint', joints)}", evidence.score, experiment)
 
 
-def _alternative(mine: Hypothesis, other: Evidence) -> Alternative:
+def _alternative(mine: Hypothesis, other: Evidence, free: bool) -> Alternative:
     one = other.variant.hypothesis
-    return Alternative(one.effect, one.title, one.numbers, one.named, other.score, separating(mine, one))
+    return Alternative(
+        one.effect, one.title, one.numbers, one.named, other.score, asked_for(separating(mine, one), free)
+    )
 
 
 def separating(mine: Hypothesis, other: Hypothesis) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 
-from identification.diagnosis.columns.hypothesis import BODY, EFFECT, ELASTIC, LOAD, SHAPE, SINCE_REVERSAL, VALUE
+from identification.diagnosis.columns.hypothesis import BODY, EFFECT, ELASTIC, LOAD, PRIOR, SHAPE, SINCE_REVERSAL, VALUE
 from identification.diagnosis.search.likely import balances, misplaces, pulls
 from identification.diagnosis.verdict.alternatives import (
     OTHER_BODY,
@@ -57,7 +57,7 @@ def doubted(one: Finding, remains: float, several: Collection[int], repeats: boo
     if all(map(_unknown, one.main)):
         return one.doubted("its values are no larger than their standard deviations", sure=False)
     if free and misplaces(one.hypothesis) and one.evidence.size < _FAINT:
-        poses = "measured poses of the tool, or known inertial parameters (--prior)"
+        poses = f"measured poses of the tool, or {PRIOR}"
         other = outside(OTHER_GEOMETRY, "another fault of the geometry", one.joints, one.evidence, poses)
         return one.doubted(_SMALL, alternatives=[other])
     if kind == VALUE and one.hypothesis.grouped:
@@ -75,7 +75,7 @@ def doubted(one: Finding, remains: float, several: Collection[int], repeats: boo
     if remains > _LEFT:
         return one.doubted("it leaves more on its joint than it explains there")
     if kind == LOAD and free:
-        weighed = "the payload on a scale, or known inertial parameters (--prior)"
+        weighed = f"the payload on a scale, or {PRIOR}"
         other = outside("torque_gain", "the same error of all torques' gains", one.joints, one.evidence, weighed)
         there = [each.effect for each in one.alternatives]
         more = [] if "torque_gain" in there else [other]

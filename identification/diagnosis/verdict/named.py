@@ -64,7 +64,7 @@ def findings(
                 shape=variant.shape,
                 parameters=values,
                 evidence=one.evidence,
-                alternatives=alternatives(hypothesis, one, found.variants),
+                alternatives=alternatives(hypothesis, one, found.variants, found.weighing.free),
                 amplitude=_amplitude(found, variant, solution[at]),
                 refined=_refined(found, variant, solution[at]),
                 shape_std=of_shape,
