@@ -57,7 +57,7 @@ def scored(truth: Mapping[str, Any], diagnosis: Mapping[str, Any]) -> Score:
     listed = sum(hits[id(one)] is None and any(_alternative(told, one) for told in findings) for one in visible)
     # An equal alternative in the place of the truth is no further effect.
     stand_ins = {
-        k for k, told in enumerate(findings) if k not in matched and any(_alternative(told, o) for o in visible)
+        k for k, told in enumerate(findings) if k not in matched and any(_alternative(told, one) for one in inside)
     }
     extra = len(findings) - len(matched | lucky | stand_ins)
     where = diagnosis.get("where") or {}

@@ -66,6 +66,9 @@ def test_an_equal_alternative_is_listed_and_a_tentative_name_is_none() -> None:
     other = [{"effect": "stribeck_friction", "joints": [2]}]
     listed = scored(TRUTH, answer(told("dahl_friction", [2], alternatives=other)))
     assert (listed.found, listed.listed, listed.extra) == (0, 1, 0)
+    unseen = told("torque_gain", [1], alternatives=[{"effect": "payload", "joints": [1]}])
+    beside = scored(TRUTH, answer(told("stribeck_friction", [2]), unseen))
+    assert (beside.found, beside.listed, beside.extra) == (1, 0, 0)
     weak = told("dahl_friction", [2]) | {"status": "tentative"}
     assert scored(TRUTH, answer(weak, verdict=UNEXPLAINED)).named == ()
     assert scored({"hidden": []}, answer(verdict=NOTHING)).named == ()
