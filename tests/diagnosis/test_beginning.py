@@ -21,14 +21,17 @@ LARGEST, REACH, SHARPNESS = 4.0, 0.05, 1.0
 FINE = 40
 
 
-def hysteresis(q: Array, qd: Array) -> Array:
-    """By Bouc and Wen, from no deflection at the beginning, in small steps of the way."""
+def hysteresis(q: Array, qd: Array, reach: float = REACH, first: float = 0.0) -> Array:
+    """By Bouc and Wen, from no deflection at the beginning or the ``first`` part of the largest, in small steps of the
+    way.
+    """
     count = len(q)
     way = np.diff(np.interp(np.arange((count - 1) * FINE + 1) / FINE, np.arange(count), q))
     z = np.zeros(len(way) + 1)
+    z[0] = first
     for i, step in enumerate(way.tolist()):
         bent = abs(z[i]) ** SHARPNESS
-        z[i + 1] = z[i] + (step - bent * (step + abs(step) * np.sign(z[i])) / 2) / REACH
+        z[i + 1] = z[i] + (step - bent * (step + abs(step) * np.sign(z[i])) / 2) / reach
     return np.asarray(LARGEST * z[::FINE])
 
 
@@ -39,6 +42,19 @@ def test_a_hysteresis_of_another_bend_that_begins_undeflected(tmp_path: Path) ->
     assert one.parameters["Fh1"].value == pytest.approx(LARGEST, rel=0.05)
     assert one.shape["xs"] == pytest.approx(REACH, rel=0.05)
     assert one.shape["exponent"] == pytest.approx(SHARPNESS, abs=3 * one.shape_std["exponent"])
+
+
+def test_a_hysteresis_that_begins_deflected_the_other_way_is_no_event(tmp_path: Path) -> None:
+    """A second of motion does not wear in what reaches far."""
+
+    def against(q: Array, qd: Array) -> Array:
+        return 2 * hysteresis(q, qd, 3 * REACH, -float(np.sign(np.mean(qd[:10]))))
+
+    regressors, sources = recorded(tmp_path, [against] * 3)
+    found = diagnosis_of(sources, regressors)
+    assert [one.hypothesis.effect for one in found.findings] == ["hysteresis"]
+    assert found.verdict == "effects_named"
+    assert [one.event for one in found.after.lack] == [""]
 
 
 @pytest.mark.parametrize(("duration", "first"), [(30.0, 1.0), (10.0, 0.0)])
@@ -67,3 +83,20 @@ def test_bristles_follow_the_way_between_the_samples(tmp_path: Path) -> None:
         z[i + 1] = np.sign(step) + (z[i] - np.sign(step)) * np.exp(-abs(step) / reach)
     exact = np.interp(scene.sampled.times, fine, z)[200:]
     assert np.sqrt(np.mean((column[200:] - exact) ** 2)) < 0.02
+
+
+def test_what_no_record_tells_of_a_bristle_fades_with_the_way(tmp_path: Path) -> None:
+    """By Dahl z' = (qd - |qd| z)/reach: two states a way apart differ by exp(-way/reach) of what they did at first."""
+    reach = 0.3
+    regressors, (source,) = recorded(tmp_path, [lambda q, qd: 0.0 * q])
+    run = ready(source, regressors)
+    scene = Scene(run.sampled, regressors, TRUTH)
+    (joint,) = regressors.model.robot.moving
+    columns = EffectColumns(library()["dahl_friction"], joint, 0, regressors.model.robot)
+    shape = {one.name: reach for one in library()["dahl_friction"].shapes}
+    begun = columns.of_beginning(scene, shape)[0, 0]
+    speed = np.abs(scene.motion.qd[0])
+    way = np.concatenate([[0.0], np.cumsum((speed[1:] + speed[:-1]) / 2) * scene.period])
+    first = begun[0]
+    assert 0.0 < first <= 2.0
+    np.testing.assert_allclose(begun / first, np.exp(-way / reach), atol=0.01)

@@ -151,6 +151,7 @@ def on_joint(effect: Effect, joint: Joint, k: int, scenes: Sequence[Scene], usua
             recorded="warmth" in effect.needs and by_heat(scenes[0].robot, k),
             usual=usual,
             of_motion="load" not in effect.needs,
+            of_beginning=columns.of_beginning if effect.states else None,
         )
     ]
 

@@ -49,11 +49,21 @@ class EffectColumns:
         """Columns at the recorded rate; not a number where the shape is impossible along the run, or over the joint's
         limits in the robot's file, or leaves less room than a machine has.
         """
+        return self._made(scene, shape, warm, None)
+
+    def of_beginning(self, scene: Scene, shape: Mapping[str, float]) -> Array:
+        """What they hold (p x n x N) of how the effect's state began, which no record tells: the way from one end of
+        its range to the other.
+        """
+        first, last = (self._made(scene, shape, False, start) for start in (-1.0, 1.0))
+        return last - first
+
+    def _made(self, scene: Scene, shape: Mapping[str, float], warm: bool, start: float | None) -> Array:
         if self._function is None:
             self._prepare()
         assert self._function is not None
         values = [shape[name] for name in self._names]
-        states = [] if self._steps is None else self._states(scene, values)
+        states = [] if self._steps is None else self._states(scene, values, start)
         signals = self._signals(scene, shape.get("warm_up_time"), warm)
         motion = scene.motion
         result = np.zeros((len(self._effect.parameters), len(self._numbers), motion.samples))
@@ -99,8 +109,10 @@ class EffectColumns:
         load = scene.load[self._k] if "load" in self._effect.needs else np.zeros(1)
         return [*motion.q, *motion.qd, *motion.qdd, load, warmth]
 
-    def _states(self, scene: Scene, values: list[float]) -> list[Array]:
-        """The effect's state along a scene, since the run's start as a file's own effect has it (``effect_states``)."""
+    def _states(self, scene: Scene, values: list[float], start: float | None) -> list[Array]:
+        """The effect's state along a scene since the run's ``start``, if that is not told as a file's own effect has it
+        (``effect_states``).
+        """
         stride = max(1, int(1 / (scene.period * _STEPS)))
         head = scene.sampled.head[self._k]
         qd = np.concatenate([head, scene.motion.qd[self._k]])
@@ -109,7 +121,8 @@ class EffectColumns:
         speed = np.append(np.diff(way) / stride, qd[-1])
         count = len(speed)
         assert self._steps is not None
-        z = self._steps(speed, values, stride * scene.period, float(beginning(qd)))
+        begun = float(beginning(qd)) if start is None else start
+        z = self._steps(speed, values, stride * scene.period, begun)
         return [np.interp(np.arange(len(head), len(qd)), np.arange(count) * stride, z)]
 
 

@@ -142,7 +142,8 @@ class Hypothesis:
     Its torque: ``columns(scene, shape)`` returns k x n x N torques [N m, N] per unit of each coefficient at the
     recorded rate: what the *measured* torque holds more than the model's says. ``jumps`` are where it jumps with a
     speed that is not the joint's own. ``of_model`` are the columns, of an effect that scales all of a drive's torque,
-    for the part of it that the model has without what was found beside it. Columns that are ``recorded`` hold the noise
+    for the part of it that the model has without what was found beside it. ``of_beginning`` is what the columns of an
+    effect with a state hold of how that began, which no record tells. Columns that are ``recorded`` hold the noise
     of the record, and so cannot tell how much of it there is; those ``of_motion`` are the same whatever the model's
     values.
 
@@ -173,6 +174,7 @@ class Hypothesis:
     grouped: bool = False
     jumps: tuple[Jump, ...] = ()
     of_model: Callable[[Scene, Mapping[str, float]], Array] | None = None
+    of_beginning: Callable[[Scene, Mapping[str, float]], Array] | None = None
     recorded: bool = False
     of_motion: bool = False
     shapes: tuple[ShapeRange, ...] = ()

@@ -13,6 +13,7 @@ from identification.arrays import Array
 from identification.diagnosis.columns.bank import columns_of
 from identification.diagnosis.columns.hypothesis import EFFECT, ELASTIC
 from identification.diagnosis.search.loop import Search
+from identification.diagnosis.verdict.beginnings import beginnings
 from identification.diagnosis.verdict.finding import Finding
 from identification.diagnosis.verdict.follows_motion import following
 from identification.diagnosis.verdict.lack_of_fit import Lack, lack_of_fit
@@ -69,12 +70,13 @@ def seen(found: Search, weights: Mapping[int, float]) -> Where:
     numbers = bank.robot.numbers
     everything = range(len(bank.runs))
     chosen = found.variants
+    unknown = [beginnings(found, r, weights) for r in everything]
     elastic = columns_of([one for one in chosen if one.hypothesis.kind == ELASTIC])
     stiff = {column: x for column, x in weights.items() if column not in elastic}
     lacks, shown = [], {}
     for k, number in enumerate(numbers):
         white = [bank.residual(r, k, weights) for r in everything]
-        doubtful = [late(found, r, k) for r in everything]
+        doubtful = [np.hypot(late(found, r, k), unknown[r][k]) for r in everything]
         if elastic:
             swings = [bank.residual(r, k, stiff) - e for r, e in enumerate(white)]
             doubtful = [np.hypot(one, swing) for one, swing in zip(doubtful, swings, strict=True)]
