@@ -70,7 +70,7 @@ def seen(found: Search, weights: Mapping[int, float]) -> Where:
     numbers = bank.robot.numbers
     everything = range(len(bank.runs))
     chosen = found.variants
-    unknown = [beginnings(found, r, weights) for r in everything]
+    unknown = beginnings(found, weights)
     elastic = columns_of([one for one in chosen if one.hypothesis.kind == ELASTIC])
     stiff = {column: x for column, x in weights.items() if column not in elastic}
     lacks, shown = [], {}
